@@ -1,0 +1,20 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace cairn::app {
+
+/// Exit codes of the program: the contract that scripts rely on.
+inline constexpr int kOk = 0;
+inline constexpr int kFailed = 1;
+inline constexpr int kUsage = 2;
+inline constexpr int kBadInput = 3;
+inline constexpr int kLost = 4;
+
+/// Runs the chosen subcommand and returns the exit code.
+using Runner = std::function<int()>;
+
+// One file per subcommand: each adds its options to `program` and, when chosen, sets `run`.
+
+}  // namespace cairn::app

@@ -1,0 +1,45 @@
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <exception>
+
+#include "apps/cairn/commands.hpp"
+#include "cairn/core/errors.hpp"
+
+namespace {
+
+using namespace cairn;
+
+int run_and_report(const app::Runner& run) {
+  try {
+    return run();
+  } catch (const ConfigurationError& error) {
+    spdlog::error("{}", error.what());
+    return app::kUsage;
+  } catch (const InputError& error) {
+    spdlog::error("{}", error.what());
+    return app::kBadInput;
+  } catch (const std::exception& error) {
+    spdlog::error("{}", error.what());
+    return app::kFailed;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // Results go to standard output, everything said about the work to standard error.
+  spdlog::set_default_logger(spdlog::stderr_color_st("cairn"));
+  spdlog::set_pattern("%^%l%$: %v");
+
+  CLI::App program("Cairn tells a mobile robot where it is", "cairn");
+  program.set_version_flag("--version", CAIRN_VERSION);
+  program.require_subcommand(1);
+  cairn::app::Runner run;
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? cairn::app::kOk : cairn::app::kUsage;
+  }
+  return run_and_report(run);
+}
