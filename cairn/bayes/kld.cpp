@@ -1,0 +1,50 @@
+#include "cairn/bayes/kld.hpp"
+
+#include "cairn/core/angle.hpp"
+#include "cairn/core/statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cairn {
+
+void KldOptions::visit(OptionVisitor& v) {
+  v.number({"epsilon",
+            "largest Kullback-Leibler distance between the samples and the belief",
+            {"pf_err", "kld_err"}},
+           epsilon, {1e-4, 1.0});
+  v.number({"confidence", "probability that the distance stays below epsilon (1 - delta)"}, confidence,
+           {0.5, 0.999999});
+  v.number({"bin_size_m", "cell of the histogram that counts the support of the belief, metres"}, bin_size_m,
+           {0.01, 10.0});
+  v.number({"bin_size_rad", "cell of that histogram in heading, radians"}, bin_size_rad, {0.01, 3.2});
+}
+
+std::size_t kld_bound(std::size_t occupied_bins, const KldOptions& options) {
+  if (occupied_bins <= 1) return 1;
+  const double k = static_cast<double>(occupied_bins - 1);
+  const double z = normal_quantile(options.confidence);
+  const double a = 2.0 / (9.0 * k);
+  // Wilson-Hilferty approximation of the chi-square quantile with k degrees of freedom.
+  const double cube_root = 1.0 - a + std::sqrt(a) * z;
+  return static_cast<std::size_t>(std::ceil(k / (2.0 * options.epsilon) * cube_root * cube_root * cube_root));
+}
+
+PoseBins::PoseBins(const KldOptions& options)
+    : cells_per_m_(1.0 / options.bin_size_m),
+      heading_bins_(std::max<std::int64_t>(1, std::llround(kTwoPi / options.bin_size_rad))) {
+  cells_per_rad_ = static_cast<double>(heading_bins_) / kTwoPi;
+}
+
+std::uint64_t PoseBins::key(const Pose2& pose) const {
+  constexpr std::uint64_t kMask = (std::uint64_t{1} << 21) - 1;
+  const auto cell = [](double value) {
+    return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(value)));
+  };
+  const auto turn = static_cast<std::int64_t>(std::floor(pose.theta * cells_per_rad_));
+  const auto heading = static_cast<std::uint64_t>(((turn % heading_bins_) + heading_bins_) % heading_bins_);
+  return ((cell(pose.x * cells_per_m_) & kMask) << 42) | ((cell(pose.y * cells_per_m_) & kMask) << 21) |
+         heading;
+}
+
+}  // namespace cairn

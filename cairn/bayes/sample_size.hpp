@@ -1,0 +1,64 @@
+#pragma once
+
+#include "cairn/bayes/kld.hpp"
+#include "cairn/core/pose2.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <unordered_set>
+
+namespace cairn {
+
+/// How many particles the next generation has: asked again and again while it is drawn.
+template <class State>
+class SampleSize {
+ public:
+  virtual ~SampleSize() = default;
+
+  /// Starts a generation and returns the number of particles to draw first.
+  virtual std::size_t begin() = 0;
+
+  /// Takes notice of newly drawn, already predicted particles; returns how many there should be in all.
+  virtual std::size_t wanted(std::span<const State> newly_drawn) = 0;
+};
+
+/// Always the same number.
+template <class State>
+class FixedSize final : public SampleSize<State> {
+ public:
+  explicit FixedSize(std::size_t count) : count_(count) {}
+  std::size_t begin() override { return count_; }
+  std::size_t wanted(std::span<const State>) override { return count_; }
+
+ private:
+  std::size_t count_;
+};
+
+/// KLD-sampling (Fox 2003, table 1): as many as the bins that the *predicted* particles occupy ask for.
+/// Counting after the prediction and before the measurement is what lets the set grow when the robot's motion
+/// has spread the belief, instead of one step too late.
+class KldSize final : public SampleSize<Pose2> {
+ public:
+  KldSize(const KldOptions& options, std::size_t min_particles, std::size_t max_particles)
+      : options_(options), bins_(options), min_(min_particles), max_(max_particles) {}
+
+  std::size_t begin() override {
+    occupied_.clear();
+    return min_;
+  }
+
+  std::size_t wanted(std::span<const Pose2> newly_drawn) override {
+    for (const Pose2& pose : newly_drawn) occupied_.insert(bins_.key(pose));
+    return std::clamp(kld_bound(occupied_.size(), options_), min_, max_);
+  }
+
+ private:
+  KldOptions options_;
+  PoseBins bins_;
+  std::size_t min_;
+  std::size_t max_;
+  std::unordered_set<std::uint64_t> occupied_;
+};
+
+}  // namespace cairn

@@ -1,0 +1,48 @@
+#include "cairn/bayes/tempering.hpp"
+
+#include "cairn/core/errors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace cairn {
+namespace {
+
+constexpr double kSmallestExponent = 1e-4;
+
+// (sum w)^2 / sum w^2 with w = exp(prior + exponent * likelihood).
+double tempered_ess(std::span<const double> priors, std::span<const double> likelihoods, double exponent,
+                    std::vector<double>& scratch) {
+  for (std::size_t i = 0; i < scratch.size(); ++i) scratch[i] = priors[i] + exponent * likelihoods[i];
+  const double largest = *std::max_element(scratch.begin(), scratch.end());
+  double sum = 0.0, sum_of_squares = 0.0;
+  for (const double value : scratch) {
+    const double w = std::exp(value - largest);
+    sum += w;
+    sum_of_squares += w * w;
+  }
+  return sum * sum / sum_of_squares;
+}
+
+}  // namespace
+
+double tempering_exponent(std::span<const double> log_priors, std::span<const double> log_likelihoods,
+                          double min_ess) {
+  CAIRN_ASSERT(log_priors.size() == log_likelihoods.size());
+  if (log_priors.empty()) return 1.0;
+  std::vector<double> scratch(log_priors.size());
+  const auto keeps = [&](double log_exponent) {
+    return tempered_ess(log_priors, log_likelihoods, std::exp(log_exponent), scratch) >= min_ess;
+  };
+  if (keeps(0.0)) return 1.0;
+  double low = std::log(kSmallestExponent);
+  double high = 0.0;
+  while (high - low > 1e-3) {
+    const double middle = 0.5 * (low + high);
+    (keeps(middle) ? low : high) = middle;
+  }
+  return std::exp(low);
+}
+
+}  // namespace cairn

@@ -1,0 +1,61 @@
+#include "cairn/core/rng.hpp"
+
+#include "cairn/core/angle.hpp"
+
+#include <cmath>
+
+#include <Random123/philox.h>
+
+namespace cairn {
+namespace {
+
+constexpr double kScale = 0x1p-32;
+
+// (0, 1): the middle of the word's interval, so that log() is finite and the mean is exactly 1/2.
+double to_uniform(std::uint32_t word) { return (static_cast<double>(word) + 0.5) * kScale; }
+
+struct NormalPair {
+  double first;
+  double second;
+};
+
+NormalPair box_muller(double u, double v) {
+  const double radius = std::sqrt(-2.0 * std::log(u));
+  return {radius * std::cos(kTwoPi * v), radius * std::sin(kTwoPi * v)};
+}
+
+}  // namespace
+
+PhiloxCounter philox4x32_10(PhiloxCounter counter, PhiloxKey key) {
+  const r123::Philox4x32::ctr_type c = {{counter[0], counter[1], counter[2], counter[3]}};
+  const r123::Philox4x32::key_type k = {{key[0], key[1]}};
+  const auto words = r123::Philox4x32()(c, k);
+  return {words[0], words[1], words[2], words[3]};
+}
+
+RandomStream RandomStream::from_item(std::uint32_t first) const {
+  RandomStream moved = *this;
+  moved.first_item_ += first;
+  return moved;
+}
+
+PhiloxCounter RandomStream::block(std::uint32_t item, std::uint16_t draw) const {
+  const auto purpose = static_cast<std::uint32_t>(purpose_);
+  return philox4x32_10({first_item_ + item, (purpose << 16) | draw, static_cast<std::uint32_t>(step_),
+                        static_cast<std::uint32_t>(step_ >> 32)},
+                       {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)});
+}
+
+std::array<double, 4> RandomStream::uniform4(std::uint32_t item, std::uint16_t draw) const {
+  const PhiloxCounter words = block(item, draw);
+  return {to_uniform(words[0]), to_uniform(words[1]), to_uniform(words[2]), to_uniform(words[3])};
+}
+
+std::array<double, 4> RandomStream::normal4(std::uint32_t item, std::uint16_t draw) const {
+  const auto u = uniform4(item, draw);
+  const NormalPair a = box_muller(u[0], u[1]);
+  const NormalPair b = box_muller(u[2], u[3]);
+  return {a.first, a.second, b.first, b.second};
+}
+
+}  // namespace cairn

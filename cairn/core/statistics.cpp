@@ -1,0 +1,91 @@
+#include "cairn/core/statistics.hpp"
+
+#include "cairn/core/angle.hpp"
+#include "cairn/core/errors.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace cairn {
+namespace {
+
+template <std::size_t N>
+double polynomial(const std::array<double, N>& coefficients, double x) {
+  double value = 0.0;
+  for (const double c : coefficients) value = value * x + c;
+  return value;
+}
+
+// Acklam 2003: https://en.wikipedia.org/wiki/Normal_distribution#Numerical_approximations (coefficients are
+// facts).
+double quantile_approximation(double p) {
+  constexpr std::array a = {-3.969683028665376e+01, 2.209460984245205e+02,  -2.759285104469687e+02,
+                            1.383577518672690e+02,  -3.066479806614716e+01, 2.506628277459239e+00};
+  constexpr std::array b = {-5.447609879822406e+01, 1.615858368580409e+02,  -1.556989798598866e+02,
+                            6.680131188771972e+01,  -1.328068155288572e+01, 1.0};
+  constexpr std::array c = {-7.784894002430293e-03, -3.223964580411365e-01, -2.400758277161838e+00,
+                            -2.549732539343734e+00, 4.374664141464968e+00,  2.938163982698783e+00};
+  constexpr std::array d = {7.784695709041462e-03, 3.224671290700398e-01, 2.445134137142996e+00,
+                            3.754408661907416e+00, 1.0};
+  constexpr double kTail = 0.02425;
+  const auto tail = [&](double q) { return polynomial(c, q) / polynomial(d, q); };
+  if (p < kTail) return tail(std::sqrt(-2.0 * std::log(p)));
+  if (p > 1.0 - kTail) return -tail(std::sqrt(-2.0 * std::log(1.0 - p)));
+  const double q = p - 0.5;
+  return q * polynomial(a, q * q) / polynomial(b, q * q);
+}
+
+}  // namespace
+
+double log_sum_exp(std::span<const double> values) {
+  if (values.empty()) return -std::numeric_limits<double>::infinity();
+  const double largest = *std::max_element(values.begin(), values.end());
+  double sum = 0.0;
+  for (const double value : values) sum += std::exp(value - largest);
+  return largest + std::log(sum);
+}
+
+double normalize_log_weights(std::span<double> log_weights) {
+  const double total = log_sum_exp(log_weights);
+  for (double& w : log_weights) w -= total;
+  return total;
+}
+
+double effective_sample_size(std::span<const double> normalized_log_weights) {
+  double sum_of_squares = 0.0;
+  for (const double w : normalized_log_weights) sum_of_squares += std::exp(2.0 * w);
+  return sum_of_squares > 0.0 ? 1.0 / sum_of_squares : 0.0;
+}
+
+PoseMoments weighted_moments(std::span<const Pose2> poses, std::span<const double> weights) {
+  CAIRN_ASSERT(poses.size() == weights.size());
+  double total = 0.0, x = 0.0, y = 0.0, c = 0.0, s = 0.0;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    total += weights[i];
+    x += weights[i] * poses[i].x;
+    y += weights[i] * poses[i].y;
+    c += weights[i] * std::cos(poses[i].theta);
+    s += weights[i] * std::sin(poses[i].theta);
+  }
+  CAIRN_ASSERT(total > 0.0);
+  PoseMoments moments;
+  moments.mean = {x / total, y / total, normalize_angle(std::atan2(s, c))};
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Eigen::Vector3d deviation(poses[i].x - moments.mean.x, poses[i].y - moments.mean.y,
+                                    angle_difference(poses[i].theta, moments.mean.theta));
+    moments.covariance += weights[i] / total * deviation * deviation.transpose();
+  }
+  return moments;
+}
+
+double normal_quantile(double probability) {
+  CAIRN_ASSERT(probability > 0.0 && probability < 1.0);
+  const double x = quantile_approximation(probability);
+  const double error = 0.5 * std::erfc(-x / std::numbers::sqrt2) - probability;
+  const double step = error * std::sqrt(kTwoPi) * std::exp(x * x / 2.0);
+  return x - step / (1.0 + x * step / 2.0);
+}
+
+}  // namespace cairn

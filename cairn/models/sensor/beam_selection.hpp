@@ -1,0 +1,22 @@
+#pragma once
+
+#include "cairn/core/pose2.hpp"
+#include "cairn/sensing/laser_scan.hpp"
+
+#include <vector>
+
+namespace cairn {
+
+/// Ranges that a model may use, within the scan's own limits, metres.
+struct BeamLimits {
+  double min_range_m = 0.0;
+  double max_range_m = 1e9;
+};
+
+/// End points, in the robot's base frame, of at most `max_beams` (0: all) of the valid beams of a scan.
+/// Invalid beams are dropped *before* the choice, which is then even over the valid ones: choosing first and
+/// dropping later leaves few beams in scans with many missing returns.
+std::vector<Point2> select_end_points(const LaserScan& scan, const Pose2& T_base_sensor,
+                                      const BeamLimits& limits, int max_beams);
+
+}  // namespace cairn
