@@ -1,10 +1,10 @@
-#include <spdlog/sinks/stdout_color_sinks.h>
-#include <spdlog/spdlog.h>
+#include "apps/cairn/commands.hpp"
+#include "cairn/core/errors.hpp"
 
 #include <exception>
 
-#include "apps/cairn/commands.hpp"
-#include "cairn/core/errors.hpp"
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
 
 namespace {
 

@@ -1,0 +1,216 @@
+#include "apps/cairn/run_tables.hpp"
+
+#include "cairn/core/angle.hpp"
+#include "cairn/core/errors.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <initializer_list>
+
+namespace cairn::app {
+namespace {
+
+void append(std::string& text, double value) {
+  char digits[32];
+  text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+}
+
+void append_row(std::string& text, char separator, Time stamp, std::initializer_list<double> values) {
+  text += format_time(stamp);
+  for (const double value : values) {
+    text += separator;
+    append(text, value);
+  }
+  text += '\n';
+}
+
+// Walks over the rows of a table; knows the line for messages.
+class TableReader {
+ public:
+  TableReader(std::string_view text, const std::string& name, char separator)
+      : rest_(text), name_(name), separator_(separator) {}
+
+  void expect_header(std::string_view header) {
+    if (!next() || row_ != header) fail("the header is not '" + std::string(header) + "'");
+  }
+
+  bool next() {
+    if (rest_.empty()) return false;
+    ++line_;
+    const std::size_t end = rest_.find('\n');
+    // Every row ends in a newline: one without it was cut off in the middle of a number, perhaps.
+    if (end == std::string_view::npos) fail("the last row is cut short");
+    row_ = rest_.substr(0, end);
+    rest_.remove_prefix(end + 1);
+    row_ended_ = false;
+    return true;
+  }
+
+  double number() {
+    const std::string_view field = next_field();
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+    if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value)) {
+      fail_field(field, "is not a finite number");
+    }
+    return value;
+  }
+
+  int count() {
+    const std::string_view field = next_field();
+    int value = 0;
+    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+    if (error != std::errc() || end != field.data() + field.size() || value < 0) {
+      fail_field(field, "is not a count");
+    }
+    return value;
+  }
+
+  Time stamp() {
+    const std::string_view field = next_field();
+    const auto value = parse_time(field);
+    if (!value) fail_field(field, "is not a time in seconds");
+    return *value;
+  }
+
+  Pose2 pose() {
+    const double x = number();
+    const double y = number();
+    return {x, y, number()};
+  }
+
+  void expect_end() {
+    if (!row_ended_) fail("the row has too many fields");
+  }
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(name_ + ":" + std::to_string(line_), what, "write the run again with `cairn localize`");
+  }
+
+ private:
+  std::string_view next_field() {
+    if (row_ended_) fail("the row has too few fields");
+    const std::size_t end = row_.find(separator_);
+    const std::string_view field = row_.substr(0, end);
+    row_ended_ = end == std::string_view::npos;
+    if (!row_ended_) row_.remove_prefix(end + 1);
+    return field;
+  }
+
+  [[noreturn]] void fail_field(std::string_view field, const char* what) const {
+    std::string text = "'";
+    text.append(field).append("' ").append(what);
+    fail(text);
+  }
+
+  std::string_view rest_;
+  std::string_view row_;
+  std::string name_;
+  char separator_;
+  bool row_ended_ = true;
+  int line_ = 0;
+};
+
+template <typename Rows>
+void expect_later(const TableReader& table, const Rows& rows, Time stamp) {
+  if (!rows.empty() && !(rows.back().stamp < stamp)) table.fail("the stamp is not later than the one before");
+}
+
+Estimate parse_estimate(TableReader& table) {
+  Estimate e;
+  e.stamp = table.stamp();
+  e.T_map_base = table.pose();
+  for (int row = 0; row < 3; ++row) {
+    for (int column = row; column < 3; ++column) {
+      e.covariance(row, column) = e.covariance(column, row) = table.number();
+    }
+  }
+  e.ess = table.number();
+  e.particles = table.count();
+  e.hypotheses = table.count();
+  e.weight = table.number();
+  e.quality = table.number();
+  table.expect_end();
+  return e;
+}
+
+}  // namespace
+
+std::string to_tum(const Trajectory& trajectory) {
+  std::string text;
+  for (const auto& [stamp, pose] : trajectory) {
+    const double half = pose.theta / 2.0;
+    append_row(text, ' ', stamp, {pose.x, pose.y, 0.0, 0.0, 0.0, std::sin(half), std::cos(half)});
+  }
+  return text;
+}
+
+Trajectory parse_tum(std::string_view text, const std::string& name) {
+  Trajectory trajectory;
+  for (TableReader table(text, name, ' '); table.next();) {
+    const Time stamp = table.stamp();
+    const double x = table.number();
+    const double y = table.number();
+    for (int i = 0; i < 3; ++i) table.number();  // z, qx, qy: the robot drives in the plane
+    const double qz = table.number();
+    const double qw = table.number();
+    table.expect_end();
+    if (!(std::hypot(qz, qw) > 0.5)) table.fail("the quaternion is no rotation in the plane");
+    expect_later(table, trajectory, stamp);
+    trajectory.push_back({stamp, {x, y, normalize_angle(2.0 * std::atan2(qz, qw))}});
+  }
+  return trajectory;
+}
+
+std::string to_csv(const std::vector<Estimate>& estimates) {
+  std::string text(kEstimateHeader);
+  text += '\n';
+  for (const Estimate& e : estimates) {
+    const Pose2& p = e.T_map_base;
+    const Eigen::Matrix3d& c = e.covariance;
+    append_row(text, ',', e.stamp,
+               {p.x, p.y, p.theta, c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2), e.ess,
+                static_cast<double>(e.particles), static_cast<double>(e.hypotheses), e.weight, e.quality});
+  }
+  return text;
+}
+
+std::vector<Estimate> parse_estimates(std::string_view text, const std::string& name) {
+  std::vector<Estimate> estimates;
+  TableReader table(text, name, ',');
+  table.expect_header(kEstimateHeader);
+  while (table.next()) {
+    const Estimate estimate = parse_estimate(table);
+    expect_later(table, estimates, estimate.stamp);
+    estimates.push_back(estimate);
+  }
+  return estimates;
+}
+
+std::string to_csv(const std::vector<ParticleSnapshot>& snapshots) {
+  std::string text(kParticleHeader);
+  text += '\n';
+  for (const ParticleSnapshot& snapshot : snapshots) {
+    for (const Pose2& p : snapshot.particles) append_row(text, ',', snapshot.stamp, {p.x, p.y, p.theta});
+  }
+  return text;
+}
+
+std::vector<ParticleSnapshot> parse_particles(std::string_view text, const std::string& name) {
+  std::vector<ParticleSnapshot> snapshots;
+  TableReader table(text, name, ',');
+  table.expect_header(kParticleHeader);
+  while (table.next()) {
+    const Time stamp = table.stamp();
+    const Pose2 pose = table.pose();
+    table.expect_end();
+    if (snapshots.empty() || snapshots.back().stamp != stamp) {
+      expect_later(table, snapshots, stamp);
+      snapshots.push_back({stamp, {}});
+    }
+    snapshots.back().particles.push_back(pose);
+  }
+  return snapshots;
+}
+
+}  // namespace cairn::app

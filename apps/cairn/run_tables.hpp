@@ -1,0 +1,36 @@
+#pragma once
+
+#include "cairn/core/trajectory.hpp"
+#include "cairn/localization/estimate.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cairn::app {
+
+// The text tables of a run directory. Stamps are seconds with nine decimals; every other number is the
+// shortest decimal that reads back as the same double, so that equal results give equal bytes. The parsers
+// take the whole text of a file and its name, and throw InputError "name:line: what; what to do" for a wrong
+// header, a missing or surplus field, a word where a number belongs, NaN, infinity, and stamps that do not
+// increase.
+
+/// `t x y z qx qy qz qw`, seconds, metres, unit quaternion; z = qx = qy = 0. (The format of the TUM RGB-D
+/// benchmark.)
+std::string to_tum(const Trajectory& trajectory);
+Trajectory parse_tum(std::string_view text, const std::string& name);
+
+/// Columns `kEstimateHeader`: units m and rad, variances m^2, m rad and rad^2.
+std::string to_csv(const std::vector<Estimate>& estimates);
+std::vector<Estimate> parse_estimates(std::string_view text, const std::string& name);
+inline constexpr std::string_view kEstimateHeader =
+    "stamp_s,x_m,y_m,theta_rad,var_x,cov_xy,cov_x_theta,var_y,cov_y_theta,var_theta,ess,particles,hypotheses,"
+    "weight,"
+    "quality";
+
+/// Columns `kParticleHeader`: the rows of one stamp are one snapshot.
+std::string to_csv(const std::vector<ParticleSnapshot>& snapshots);
+std::vector<ParticleSnapshot> parse_particles(std::string_view text, const std::string& name);
+inline constexpr std::string_view kParticleHeader = "stamp_s,x_m,y_m,theta_rad";
+
+}  // namespace cairn::app
