@@ -18,7 +18,7 @@ namespace cairn {
 
 struct ParticleFilterOptions {
   std::uint64_t seed = 1;
-  /// Resample when ESS / N is below this: 1 before every prediction, 0 never.
+  /// Resample when ESS / N is below this: 1 before every prediction (unless all weights are equal), 0 never.
   double resample_ess_ratio = 1.0;
   /// No measurement may leave fewer effective samples than this share of N (see tempering_exponent); 0: off.
   double min_ess_share = 0.0;
@@ -41,16 +41,24 @@ class ParticleFilter {
         executor_(std::move(executor)),
         options_(options) {}
 
-  /// Starts from `states`, all of the same weight. @pre not empty
-  void initialize(std::vector<State> states) {
-    particles_.states = std::move(states);
+  /// Draws the first generation: `sample(random, i)` gives particle i. All get the same weight.
+  void initialize(const std::function<State(const RandomStream&, std::uint32_t)>& sample) {
+    const RandomStream random(options_.seed, RandomPurpose::kInitialize, 0);
+    std::vector<State>& states = particles_.states;
+    states.clear();
+    for (std::size_t wanted = size_->begin(); states.size() < wanted;) {
+      const std::size_t first = states.size();
+      while (states.size() < wanted)
+        states.push_back(sample(random, static_cast<std::uint32_t>(states.size())));
+      wanted = size_->wanted(std::span<const State>(states).subspan(first));
+    }
     set_uniform_weights();
   }
 
   /// One turn of the filter: x' ~ p(x' | u, x), w = p(z | x').
   void update(const Control& u, const BoundUpdate<State>& z) {
     ++step_;
-    if (ess_ < options_.resample_ess_ratio * static_cast<double>(particles_.size()) || step_ == 1) {
+    if (ess_ < options_.resample_ess_ratio * static_cast<double>(particles_.size())) {
       resample_and_predict(u);
     } else {
       predict(u, particles_.states, 0);

@@ -1,24 +1,13 @@
 #pragma once
 
-#include <optional>
+#include "cairn/core/diagnostics.hpp"
+#include "cairn/sensing/event.hpp"
+#include "cairn/sensing/stream_info.hpp"
+
 #include <string>
 #include <vector>
 
-#include "cairn/core/diagnostics.hpp"
-#include "cairn/core/pose2.hpp"
-#include "cairn/sensing/event.hpp"
-
 namespace cairn {
-
-enum class StreamKind { kOdometry, kLaserScan };
-
-/// One sensor of a log. `Event::stream` is its index in `Log::streams`.
-struct StreamInfo {
-  std::string name;  ///< topic, or the reader's name for the message ("odom", "flaser", ...)
-  StreamKind kind = StreamKind::kOdometry;
-  std::string frame;                        ///< frame_id where the log names one
-  std::optional<Pose2> T_base_sensor;       ///< mounting pose where the log tells it (PARAM, tf)
-};
 
 /// A recording, read whole. Events stand in the order of the file (the order of arrival), which need not be
 /// the order of their stamps.

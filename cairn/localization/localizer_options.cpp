@@ -1,0 +1,92 @@
+#include "cairn/localization/localizer_options.hpp"
+
+#include "cairn/core/errors.hpp"
+
+#include <vector>
+
+namespace cairn {
+
+void LaserStreamOptions::visit(OptionVisitor& v) {
+  const Range anywhere{-1e4, 1e4};
+  v.flag({"use", "weigh the belief with this stream"}, use);
+  v.flag({"mount_from_log", "take the mounting pose from the log where it tells one"}, mount_from_log);
+  v.number({"mount_x_m", "position of the scanner ahead of the robot's base, metres"}, T_base_sensor.x,
+           anywhere);
+  v.number({"mount_y_m", "position of the scanner to the left of the robot's base, metres"}, T_base_sensor.y,
+           anywhere);
+  v.number({"mount_yaw_rad", "heading of the scanner on the robot, radians"}, T_base_sensor.theta,
+           {-7.0, 7.0});
+  v.number({"min_range_m", "shorter ranges are not used, metres", {"laser_min_range"}}, limits.min_range_m,
+           {0.0, 1e9});
+  v.number({"max_range_m", "longer ranges are not used, metres", {"laser_max_range"}}, limits.max_range_m,
+           {0.0, 1e9});
+}
+
+void FilterOptions::visit(OptionVisitor& v) {
+  const Range count{1, 10'000'000};
+  v.integer({"particles", "number of particles of the recipe mcl"}, particles, count);
+  v.integer({"min_particles", "fewest particles of the recipe kld_mcl"}, min_particles, count);
+  v.integer({"max_particles", "most particles of the recipe kld_mcl"}, max_particles, count);
+  v.section({"kld", "KLD-sampling: how the number of particles follows the spread of the belief"},
+            [this](OptionVisitor& inner) { kld.visit(inner); });
+  v.number(
+      {"resample_ess_ratio", "recipe mcl resamples when the effective share of the particles is below this"},
+      resample_ess_ratio, {0.0, 1.0});
+  v.number({"min_ess_share",
+            "a measurement is flattened rather than leave a smaller effective share of the particles"},
+           min_ess_share, {0.0, 0.9});
+}
+
+void FilterOptions::validate() const {
+  if (min_particles > max_particles) {
+    throw ConfigurationError("filter.min_particles", "is larger than filter.max_particles", "swap them");
+  }
+}
+
+void UpdateOptions::visit(OptionVisitor& v) {
+  v.number({"min_translation_m", "a scan is used after this much driving, metres", {"update_min_d"}},
+           min_translation_m, {0.0, 100.0});
+  v.number({"min_rotation_rad", "or after this much turning, radians", {"update_min_a"}}, min_rotation_rad,
+           {0.0, 7.0});
+}
+
+void InitialOptions::visit(OptionVisitor& v) {
+  v.number({"sigma_x_m", "spread of the belief around a given start pose, standard deviation, metres"},
+           sigma_x_m, {0.0, 1e3});
+  v.number({"sigma_y_m", "likewise, metres"}, sigma_y_m, {0.0, 1e3});
+  v.number({"sigma_yaw_rad", "likewise, radians"}, sigma_yaw_rad, {0.0, 7.0});
+}
+
+void LocalizerOptions::visit(OptionVisitor& v) {
+  const auto section = [&v](const std::string& name, const std::string& documentation, auto& options) {
+    v.section({name, documentation}, [&options](OptionVisitor& inner) { options.visit(inner); });
+  };
+  v.choice({"recipe", "composition of the filter: mcl (fixed number of particles) or kld_mcl (adaptive)"},
+           recipe, {"mcl", "kld_mcl"});
+  v.text({"odometry_stream", "name of the odometry in the log; empty: the first odometry stream"},
+         odometry_stream);
+  section("motion", "odometry motion model of a differential drive", motion);
+  section("laser", "likelihood field of the laser scanners", laser);
+  section("filter", "particles", filter);
+  section("update", "when a scan is worth an update", update);
+  section("initial", "spread around a given start pose", initial);
+  std::vector<std::string> present;
+  for (const auto& [name, unused] : streams) present.push_back(name);
+  v.table({"streams", "laser streams by their name in the log; none: every laser stream is used"}, present,
+          [this](const std::string& key, OptionVisitor& inner) { streams[key].visit(inner); });
+}
+
+void LocalizerOptions::validate() const {
+  filter.validate();
+  if (laser.z_hit + laser.z_rand <= 0.0) {
+    throw ConfigurationError("laser.z_hit", "and z_rand are both zero", "give one of them a weight");
+  }
+  for (const auto& [name, stream] : streams) {
+    if (stream.limits.min_range_m >= stream.limits.max_range_m) {
+      throw ConfigurationError("streams." + name + ".min_range_m", "is not below max_range_m",
+                               "correct one of them");
+    }
+  }
+}
+
+}  // namespace cairn

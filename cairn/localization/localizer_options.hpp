@@ -1,0 +1,69 @@
+#pragma once
+
+#include "cairn/bayes/kld.hpp"
+#include "cairn/core/options.hpp"
+#include "cairn/models/motion/differential_drive.hpp"
+#include "cairn/models/sensor/beam_selection.hpp"
+#include "cairn/models/sensor/likelihood_field.hpp"
+
+#include <map>
+#include <string>
+
+namespace cairn {
+
+/// How a laser stream of the log is used.
+struct LaserStreamOptions {
+  bool use = true;
+  bool mount_from_log = true;  ///< take the mounting pose from the log where it tells one
+  Pose2 T_base_sensor;         ///< used where the log does not tell, or if mount_from_log is false
+  BeamLimits limits;
+
+  void visit(OptionVisitor& visitor);
+};
+
+struct FilterOptions {
+  int particles = 2000;     ///< recipe mcl
+  int min_particles = 500;  ///< recipe kld_mcl
+  int max_particles = 10000;
+  KldOptions kld;
+  double resample_ess_ratio = 0.5;  ///< recipe mcl
+  double min_ess_share = 0.02;
+
+  void visit(OptionVisitor& visitor);
+  void validate() const;  ///< @throws ConfigurationError
+};
+
+/// When a scan is worth an update: after either motion since the last one.
+struct UpdateOptions {
+  double min_translation_m = 0.1;
+  double min_rotation_rad = 0.1;
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// Spread of the belief around a start pose that the user gives, standard deviations.
+struct InitialOptions {
+  double sigma_x_m = 0.3;
+  double sigma_y_m = 0.3;
+  double sigma_yaw_rad = 0.15;
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// Everything about a localizer but its map, its start and its seed.
+struct LocalizerOptions {
+  std::string recipe = "kld_mcl";
+  std::string odometry_stream;  ///< name in the log; empty: the only one, or the first
+  DifferentialDriveOptions motion;
+  LikelihoodFieldOptions laser;
+  FilterOptions filter;
+  UpdateOptions update;
+  InitialOptions initial;
+  std::map<std::string, LaserStreamOptions>
+      streams;  ///< by name in the log; none: every laser stream is used
+
+  void visit(OptionVisitor& visitor);
+  void validate() const;  ///< @throws ConfigurationError
+};
+
+}  // namespace cairn

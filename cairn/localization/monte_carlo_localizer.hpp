@@ -1,0 +1,85 @@
+#pragma once
+
+#include "cairn/bayes/particle_filter.hpp"
+#include "cairn/localization/localizer.hpp"
+#include "cairn/localization/localizer_options.hpp"
+#include "cairn/localization/odometry_buffer.hpp"
+#include "cairn/maps/occupancy_grid.hpp"
+#include "cairn/sensing/stream_info.hpp"
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace cairn {
+
+/// Where a localizer begins: near a pose (T_map_base, spread as InitialOptions say), or anywhere free.
+struct Start {
+  std::optional<Pose2> T_map_base;
+};
+
+/// Monte Carlo localization (Thrun et al., Probabilistic Robotics, table 8.2; with KLD-sampling, table 8.4)
+/// on one odometry stream and any number of laser streams.
+///
+/// A scan waits until odometry around its stamp is known; the motion between two scans is cut exactly there.
+class MonteCarloLocalizer final : public Localizer {
+ public:
+  using Observer = std::function<void(const Estimate&)>;
+
+  /// @param streams table that Event::stream indexes
+  /// @throws ConfigurationError if the options do not fit the streams or the map, or the start is off the map
+  MonteCarloLocalizer(const LocalizerOptions& options, const std::vector<StreamInfo>& streams,
+                      const OccupancyGrid& map, const Start& start, std::uint64_t seed,
+                      std::shared_ptr<const Executor> executor);
+
+  /// Called with the belief at the stamp of every scan that was used or not needed, in the order of the
+  /// stamps.
+  void set_observer(Observer observer) { observer_ = std::move(observer); }
+
+  Outcome process(const Event& event) override;
+  void finish() override;
+  std::optional<Estimate> estimate() const override { return estimate_; }
+  ParticleSnapshot snapshot(std::size_t at_most) const override;
+  const std::vector<OutcomeCounts>& outcomes() const override { return outcomes_; }
+  const Diagnostics& diagnostics() const override { return diagnostics_; }
+  std::int64_t updates() const override { return updates_; }
+
+ private:
+  struct PendingScan {
+    StreamId stream;
+    std::shared_ptr<const LaserScan> scan;
+  };
+  using Filter = ParticleFilter<Pose2, Pose2>;
+
+  void bind_streams(const std::vector<StreamInfo>& streams, const OccupancyGrid& map);
+  void initialize(const OccupancyGrid& map, const Start& start);
+
+  Outcome take(StreamId stream, const Odometry& odometry);
+  Outcome take(StreamId stream, const std::shared_ptr<const LaserScan>& scan);
+  void use_pending();
+  Outcome use(const PendingScan& pending, const Pose2& T_odom_base);
+  void count(StreamId stream, Outcome outcome);
+  bool moved_enough(const Pose2& T_last_now) const;
+  Estimate summarize(const LaserScan& scan, const LikelihoodField& model) const;
+
+  LocalizerOptions options_;
+  std::optional<StreamId> odometry_stream_;
+  std::vector<std::unique_ptr<const LikelihoodField>> laser_models_;  ///< per stream; null: not bound
+  std::vector<std::string> stream_names_;
+  Filter filter_;
+  Observer observer_;
+
+  OdometryBuffer odometry_;
+  std::deque<PendingScan> pending_;  ///< in the order of their stamps
+  std::optional<Time> belief_stamp_;
+  Pose2 T_odom_base_at_update_;  ///< odometry at the last update
+  Estimate at_update_;           ///< belief right after the last update
+  std::optional<Estimate> estimate_;
+  std::vector<OutcomeCounts> outcomes_;
+  Diagnostics diagnostics_;
+  std::int64_t updates_ = 0;
+};
+
+}  // namespace cairn

@@ -1,0 +1,36 @@
+#include "cairn/localization/recipes.hpp"
+
+#include "cairn/core/errors.hpp"
+
+namespace cairn {
+namespace {
+
+using Filter = ParticleFilter<Pose2, Pose2>;
+
+Filter compose(const LocalizerOptions& options, std::unique_ptr<SampleSize<Pose2>> size,
+               double resample_ess_ratio, std::uint64_t seed, std::shared_ptr<const Executor> executor) {
+  auto motion = std::make_shared<const DifferentialDrive>(options.motion);
+  return Filter(std::move(motion), std::move(size), std::move(executor),
+                {.seed = seed,
+                 .resample_ess_ratio = resample_ess_ratio,
+                 .min_ess_share = options.filter.min_ess_share});
+}
+
+}  // namespace
+
+ParticleFilter<Pose2, Pose2> make_filter(const LocalizerOptions& options, std::uint64_t seed,
+                                         std::shared_ptr<const Executor> executor) {
+  const FilterOptions& f = options.filter;
+  if (options.recipe == "mcl") {
+    auto size = std::make_unique<FixedSize<Pose2>>(static_cast<std::size_t>(f.particles));
+    return compose(options, std::move(size), f.resample_ess_ratio, seed, std::move(executor));
+  }
+  if (options.recipe == "kld_mcl") {
+    auto size = std::make_unique<KldSize>(f.kld, static_cast<std::size_t>(f.min_particles),
+                                          static_cast<std::size_t>(f.max_particles));
+    return compose(options, std::move(size), 1.0, seed, std::move(executor));
+  }
+  throw ConfigurationError("recipe", "'" + options.recipe + "' is not known", "use mcl or kld_mcl");
+}
+
+}  // namespace cairn
