@@ -17,5 +17,6 @@ inline constexpr int kLost = 4;
 using Runner = std::function<int()>;
 
 // One file per subcommand: each adds its options to `program` and, when chosen, sets `run`.
+void add_score(CLI::App& program, Runner& run);
 
 }  // namespace cairn::app

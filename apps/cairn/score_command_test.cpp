@@ -1,0 +1,75 @@
+#include "apps/cairn/commands.hpp"
+#include "cairn/core/errors.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+namespace cairn::app {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+class ScoreCommand : public ::testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+    return (folder_ / name).string();
+  }
+  /// What the command prints.
+  static std::string output_of(const std::string& arguments) {
+    CLI::App program;
+    Runner run;
+    add_score(program, run);
+    program.parse("score " + arguments);
+    std::ostringstream output;
+    auto* const console = std::cout.rdbuf(output.rdbuf());
+    const auto restore = [console](void*) { std::cout.rdbuf(console); };
+    const std::unique_ptr<void, decltype(restore)> guard(&output, restore);
+    EXPECT_EQ(run(), kOk);
+    return output.str();
+  }
+
+  fs::path folder_ = fs::temp_directory_path() / ("cairn_score_test" + std::to_string(getpid()));
+};
+
+TEST_F(ScoreCommand, PrintsWhatItMeasured) {
+  const std::string reference = write("ref", "0.5 0 0 0\n1.5 1 0 0\n2.5 2 0 0\n");
+  const std::string estimate = write("est", "0.5, 0, 0.03, 0\n2.5, 2, 0.03, 0\n");
+  const std::string text = output_of("--reference " + reference + " --estimate " + estimate);
+  EXPECT_THAT(text, HasSubstr("mean 3.00 +- 0.00 cm"));
+  EXPECT_THAT(text, HasSubstr("3 of 3 reference poses"));
+  EXPECT_THAT(text, HasSubstr("lost      no"));
+}
+
+TEST_F(ScoreCommand, OffsetAndJson) {
+  const std::string reference = write("ref", "0.5 0.08 0 0\n1.5 1.08 0 0\n");
+  const std::string estimate = write("est", "0.5 0 0 0\n1.5 1 0 0\n");
+  const auto json = nlohmann::json::parse(
+      output_of("--reference " + reference + " --estimate " + estimate + " --offset 0.08,0,0 --json"));
+  EXPECT_NEAR(json["position"]["max_m"].get<double>(), 0.0, 1e-12);
+}
+
+TEST_F(ScoreCommand, BadInputIsAnError) {
+  const std::string reference = write("ref", "0.5 0.08 0 0\n1.5 1.08 0 zero\n");
+  EXPECT_THROW(output_of("--reference " + reference + " --estimate " + reference), InputError);
+  const std::string good = write("good", "0.5 0.08 0 0\n1.5 1.08 0 0\n");
+  EXPECT_THROW(output_of("--reference " + good + " --estimate " + folder_.string()), InputError);
+  EXPECT_THROW(output_of("--reference " + good + " --estimate " + good + " --align scaled"),
+               ConfigurationError);
+  EXPECT_THROW(output_of("--reference " + good), CLI::ParseError);
+}
+
+}  // namespace
+}  // namespace cairn::app
