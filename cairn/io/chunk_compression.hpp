@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace cairn {
+
+enum class UnpackState {
+  kComplete,
+  kCutShort,  ///< the packed bytes end early; what came out so far is good
+  kCorrupt    ///< damaged, or unpacks to more than `limit`; what came out is not to be trusted
+};
+
+struct Unpacked {
+  std::string bytes;
+  UnpackState state = UnpackState::kCorrupt;
+};
+
+/// Unpack one bzip2 stream or one LZ4 frame held in memory. The result grows with what really comes out and
+/// never beyond `limit` bytes, whatever the packed data announce. Nothing throws but std::bad_alloc.
+Unpacked unpack_bz2(std::string_view packed, std::size_t limit);
+Unpacked unpack_lz4_frame(std::string_view packed, std::size_t limit);
+
+}  // namespace cairn
