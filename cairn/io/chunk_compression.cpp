@@ -1,6 +1,5 @@
 #include "cairn/io/chunk_compression.hpp"
 
-#include <algorithm>
 #include <array>
 #include <memory>
 
