@@ -1,8 +1,8 @@
 #include "cairn/core/pose2.hpp"
 
-#include <cmath>
-
 #include "cairn/core/angle.hpp"
+
+#include <cmath>
 
 namespace cairn {
 namespace {

@@ -26,7 +26,8 @@ std::optional<std::int64_t> parse_whole(std::string_view digits) {
   if (digits.front() == '-' || digits.front() == '+') return std::nullopt;
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc() || end != digits.data() + digits.size() || value > kMaxSeconds) return std::nullopt;
+  if (error != std::errc() || end != digits.data() + digits.size() || value > kMaxSeconds)
+    return std::nullopt;
   return value;
 }
 

@@ -1,8 +1,8 @@
 #include "cairn/core/trajectory.hpp"
 
-#include <algorithm>
-
 #include "cairn/core/angle.hpp"
+
+#include <algorithm>
 
 namespace cairn {
 

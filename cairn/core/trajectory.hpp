@@ -1,10 +1,10 @@
 #pragma once
 
-#include <optional>
-#include <vector>
-
 #include "cairn/core/pose2.hpp"
 #include "cairn/core/time.hpp"
+
+#include <optional>
+#include <vector>
 
 namespace cairn {
 

@@ -1,10 +1,10 @@
 #include "cairn/maps/occupancy_grid.hpp"
 
+#include "cairn/core/errors.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
-
-#include "cairn/core/errors.hpp"
 
 namespace cairn {
 
@@ -42,7 +42,8 @@ CellState OccupancyGrid::state(std::size_t index) const {
 
 CellState OccupancyGrid::state_at(const Point2& p_map) const {
   const Point2 p = geometry_.to_cells(p_map);
-  if (!(p.x >= 0.0 && p.x < geometry_.width && p.y >= 0.0 && p.y < geometry_.height)) return CellState::kUnknown;
+  if (!(p.x >= 0.0 && p.x < geometry_.width && p.y >= 0.0 && p.y < geometry_.height))
+    return CellState::kUnknown;
   return state(geometry_.index(static_cast<int>(p.x), static_cast<int>(p.y)));
 }
 

@@ -1,16 +1,17 @@
 #pragma once
 
+#include "cairn/core/pose2.hpp"
+
 #include <cstdint>
 #include <vector>
-
-#include "cairn/core/pose2.hpp"
 
 namespace cairn {
 
 /// Size and place of a grid of square cells.
 ///
 /// Cell (column, row) covers [column, column+1) x [row, row+1) times `resolution_m` in the grid's own frame,
-/// whose origin (the outer corner of cell (0, 0)) lies at `T_map_grid` in the map: rows count upwards along y.
+/// whose origin (the outer corner of cell (0, 0)) lies at `T_map_grid` in the map: rows count upwards along
+/// y.
 struct GridGeometry {
   int width = 0;   ///< columns
   int height = 0;  ///< rows
@@ -18,7 +19,9 @@ struct GridGeometry {
   Pose2 T_map_grid;
 
   std::size_t size() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
-  bool contains(int column, int row) const { return column >= 0 && column < width && row >= 0 && row < height; }
+  bool contains(int column, int row) const {
+    return column >= 0 && column < width && row >= 0 && row < height;
+  }
   std::size_t index(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
   }

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <variant>
-
 #include "cairn/core/time.hpp"
 #include "cairn/sensing/laser_scan.hpp"
 #include "cairn/sensing/odometry.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <variant>
 
 namespace cairn {
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <vector>
-
 #include "cairn/core/time.hpp"
+
+#include <vector>
 
 namespace cairn {
 
