@@ -119,6 +119,12 @@ std::size_t FieldReader::fields_left() const {
   return count;
 }
 
+void FieldReader::expect_end() {
+  if (at_end()) return;
+  last_ = position_;
+  fail("more fields than the line announces or its message has", "remove them or correct the count");
+}
+
 std::string FieldReader::where() const { return line_.where() + ":" + std::to_string(last_ + 1); }
 
 void FieldReader::fail(const std::string& what, const std::string& remedy) const {

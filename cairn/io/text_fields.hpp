@@ -53,6 +53,7 @@ class FieldReader {
   Time time(const char* meaning);                ///< seconds, read exactly (exponents through a double)
   double maybe_not_finite(const char* meaning);  ///< a number that may be nan or inf (a range without return)
   std::size_t fields_left() const;
+  void expect_end();          ///< fails if a field is left
   std::string where() const;  ///< "file:line:column" of the field read last
   [[noreturn]] void fail(const std::string& what, const std::string& remedy) const;
 

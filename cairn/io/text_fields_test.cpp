@@ -119,6 +119,12 @@ TEST(FieldReader, ErrorsSayWhereAndWhat) {
             error_of("A " + std::string(100, 'x'), number).size());
 }
 
+TEST(FieldReader, ExpectEndNamesTheFirstFieldTooMany) {
+  const auto end = [](FieldReader& fields) { fields.expect_end(); };
+  EXPECT_EQ(error_of("A ", end), "no error");
+  EXPECT_THAT(error_of("A  b c", end), HasSubstr("f.txt:1:4: more fields"));
+}
+
 TEST(FieldReader, IntegersAreWholeAndFit) {
   const auto integer = [](FieldReader& fields) { fields.integer("count"); };
   EXPECT_EQ(error_of("A -7", integer), "no error");
