@@ -1,0 +1,8 @@
+#include "cairn/io/rosbag1.hpp"
+#include "fuzz_target.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return cairn::fuzz::read_stream(data, size, [](std::istream& input) {
+    cairn::fuzz::check(cairn::read_rosbag1(input, "fuzz"));
+  });
+}
