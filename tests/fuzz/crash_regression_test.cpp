@@ -1,6 +1,6 @@
 // Runs the inputs kept from fuzzing through the fuzz targets, without a fuzzer: corpus/<reader>/ (seeds) and
 // crashes/<reader>/ (what once crashed, hung, or ate memory).
-#include <gtest/gtest.h>
+#include "fuzz_targets.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "fuzz_targets.hpp"
+#include <gtest/gtest.h>
 
 namespace {
 

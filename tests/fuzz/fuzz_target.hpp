@@ -1,5 +1,8 @@
 #pragma once
 
+#include "cairn/core/errors.hpp"
+#include "cairn/io/log.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -7,9 +10,6 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
-
-#include "cairn/core/errors.hpp"
-#include "cairn/io/log.hpp"
 
 /// Every fuzz target is a file `<reader>_fuzz.cpp` that defines this function, and nothing else with a public
 /// name. libFuzzer calls it with inputs of its own making; the crash regression test with the files kept.
@@ -21,8 +21,8 @@ inline std::string text_of(const std::uint8_t* data, std::size_t size) {
   return size == 0 ? std::string() : std::string(reinterpret_cast<const char*>(data), size);
 }
 
-/// Gives the bytes to `read(std::istream&)`. A refusal (InputError, ConfigurationError) is an answer; any other
-/// exception is a bug and goes through.
+/// Gives the bytes to `read(std::istream&)`. A refusal (InputError, ConfigurationError) is an answer; any
+/// other exception is a bug and goes through.
 template <class Read>
 int read_stream(const std::uint8_t* data, std::size_t size, Read read) {
   std::istringstream input(text_of(data, size));

@@ -2,7 +2,6 @@
 #include "fuzz_target.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  return cairn::fuzz::read_stream(data, size, [](std::istream& input) {
-    cairn::fuzz::check(cairn::read_rosbag1(input, "fuzz"));
-  });
+  return cairn::fuzz::read_stream(
+      data, size, [](std::istream& input) { cairn::fuzz::check(cairn::read_rosbag1(input, "fuzz")); });
 }
