@@ -140,13 +140,14 @@ TEST_F(Ros1LogTest, OdometryGivesThePlanarPose) {
 
 TEST_F(Ros1LogTest, PosesWithoutSenseAreMalformed) {
   odometry({.position = {kNaN, 0.0, 0.0}});
+  odometry({.position = {0.0, -2e7, 0.0}});
   odometry({.rotation = {0.0, 0.0, 0.0, 0.0}});
   odometry({.rotation = {0.0, 0.0, kNaN, 1.0}});
   odometry({.rotation = {0.0, 0.0, 0.0, 90.0}});
   add("nav_msgs/Odometry", test::kOdometryMd5, "/odom", test::transform_bytes({}));  // no covariances
   const Log log = finish();
   EXPECT_TRUE(log.events.empty());
-  EXPECT_EQ(count(log, "malformed message"), 5);
+  EXPECT_EQ(count(log, "malformed message"), 6);
 }
 
 TEST_F(Ros1LogTest, TransformsWithoutSenseAreSkippedOneByOne) {

@@ -11,6 +11,7 @@ namespace cairn::ros1 {
 namespace {
 
 constexpr double kMaxAngle = 2.0 * kTwoPi;
+constexpr double kMaxCoordinate = 1e7;  // metres
 constexpr double kMaxNormError = 0.01;  // of a quaternion; beyond it, it was no rotation
 
 void require(bool condition, const char* otherwise) {
@@ -45,7 +46,8 @@ std::optional<RigidTransform> read_transform(ByteReader& bytes) {
   for (double& value : v) value = bytes.number<double>();
   RigidTransform transform{{v[0], v[1], v[2]}, {v[6], v[3], v[4], v[5]}};  // Eigen takes w first
   const double norm = transform.rotation.norm();
-  if (!transform.position.allFinite() || !(std::abs(norm - 1.0) <= kMaxNormError)) return std::nullopt;
+  const bool is_near = transform.position.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= kMaxCoordinate;
+  if (!is_near || !(std::abs(norm - 1.0) <= kMaxNormError)) return std::nullopt;
   transform.rotation.coeffs() /= norm;
   return transform;
 }

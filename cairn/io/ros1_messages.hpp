@@ -42,7 +42,7 @@ struct RigidTransform {
 struct StampedTransform {
   Header header;
   std::string child_frame_id;
-  std::optional<RigidTransform> T_parent_child;  ///< nullopt: not finite, or a rotation that is none
+  std::optional<RigidTransform> T_parent_child;  ///< nullopt: not finite, over 10,000 km, or no rotation
 };
 
 /// @throws MalformedMessage if the bytes end early, announce more than they hold, or the scan makes no sense:

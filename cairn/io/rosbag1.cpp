@@ -2,6 +2,7 @@
 
 #include "cairn/core/errors.hpp"
 #include "cairn/io/chunk_compression.hpp"
+#include "cairn/io/plausible_units.hpp"
 #include "cairn/io/ros1_log.hpp"
 #include "cairn/io/rosbag1_records.hpp"
 
@@ -54,6 +55,7 @@ class BagReader {
     report_losses();
     Log log = std::move(log_).finish();
     log.format = "rosbag1";
+    warn_of_implausible_units(log, name_);
     return log;
   }
 

@@ -29,7 +29,8 @@ bool is_rosbag1(std::string_view head);
 /// | lost bytes | in the file's (packed) bytes: skipped, or known to be missing |
 /// | lost messages | of any type, where index records tell how many a chunk held |
 ///
-/// A chunk may unpack to at most 256 MiB.
+/// Numbers that cannot be metres are counted, too (plausible_units.hpp). A chunk may unpack to at most 256
+/// MiB.
 ///
 /// @param name  of the file, for messages to the user
 /// @throws InputError if it is no ROS 1 bag of format 2.0, is encrypted, or ends within the bag's header.

@@ -262,6 +262,14 @@ TEST(Rosbag1, AChunkThatUnpacksToFarMoreThanItAnnouncesStopsEarly) {
   EXPECT_EQ(count(read(bag), "corrupt chunk"), 1);
 }
 
+TEST(Rosbag1, CentimetresReadAsMetresAreNoticed) {
+  RosbagWriter writer;
+  const auto laser = writer.connection("/scan", "sensor_msgs/LaserScan", test::kLaserScanMd5);
+  const std::vector<float> ranges{310.0f, 450.0f, 520.0f};
+  writer.message(laser, {100, 0}, test::scan_message({.range_max = 8000.0f, .ranges = ranges}));
+  EXPECT_EQ(count(read(writer.finish()), "implausible units"), 1);
+}
+
 TEST(Rosbag1, IsToldByItsFirstBytes) {
   EXPECT_TRUE(is_rosbag1("#ROSBAG V2.0\n"));
   EXPECT_TRUE(is_rosbag1("#ROSBAG V1.1\n"));
