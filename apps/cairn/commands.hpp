@@ -17,6 +17,7 @@ inline constexpr int kLost = 4;
 using Runner = std::function<int()>;
 
 // One file per subcommand: each adds its options to `program` and, when chosen, sets `run`.
+void add_log(CLI::App& program, Runner& run);
 void add_score(CLI::App& program, Runner& run);
 
 }  // namespace cairn::app

@@ -36,6 +36,7 @@ int main(int argc, char** argv) {
   program.set_version_flag("--version", CAIRN_VERSION);
   program.require_subcommand(1);
   cairn::app::Runner run;
+  cairn::app::add_log(program, run);
   cairn::app::add_score(program, run);
   try {
     program.parse(argc, argv);

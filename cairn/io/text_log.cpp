@@ -69,8 +69,10 @@ StreamId TextLogBuilder::stream(const std::string& name, StreamKind kind) {
 
 void TextLogBuilder::add(Event event) {
   if (!log_.events.empty() && event.stamp < log_.events.back().stamp) {
-    warn("time reversal",
-         "stamp " + format_time(event.stamp) + " follows " + format_time(log_.events.back().stamp));
+    const Time before = log_.events.back().stamp;
+    warn("time reversal", "stamp " + format_time(event.stamp) + " is " +
+                              std::to_string(to_seconds(before - event.stamp)) +
+                              " s earlier than the one before it");
   }
   log_.events.push_back(std::move(event));
 }

@@ -1,10 +1,10 @@
+#include "cairn/core/errors.hpp"
+#include "cairn/io/wean_log.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <sstream>
 #include <string>
-
-#include "cairn/core/errors.hpp"
-#include "cairn/io/wean_log.hpp"
 
 // Whatever the bytes are: a log, or an InputError.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
