@@ -1,0 +1,142 @@
+// The peer: MRPT's likelihood field (LF_Thrun) and its Gaussian motion model, on the same map, scan and
+// particles.
+#include "bench_world.hpp"
+#include "cairn/models/sensor/likelihood_field.hpp"
+
+#include <cmath>
+
+#include <benchmark/benchmark.h>
+#include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/obs/CActionRobotMovement2D.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+
+namespace cairn::bench {
+namespace {
+
+using mrpt::maps::COccupancyGridMap2D;
+using mrpt::obs::CActionRobotMovement2D;
+using mrpt::obs::CObservation2DRangeScan;
+using mrpt::poses::CPose2D;
+using mrpt::poses::CPose3D;
+
+// The options that make MRPT do the same work as LikelihoodField: every beam, distances up to 2 m, and
+// log(z_hit exp(..) + z_rand), which MRPT writes as z_rand / LF_maxRange.
+void set_options(COccupancyGridMap2D::TLikelihoodOptions& mrpt, const LikelihoodFieldOptions& cairn) {
+  mrpt.likelihoodMethod = COccupancyGridMap2D::lmLikelihoodField_Thrun;
+  mrpt.LF_decimation = 1;
+  mrpt.LF_maxCorrsDistance = static_cast<float>(cairn.max_distance_m);
+  mrpt.LF_stdHit = static_cast<float>(cairn.sigma_hit_m);
+  mrpt.LF_zHit = static_cast<float>(cairn.z_hit);
+  mrpt.LF_zRandom = static_cast<float>(cairn.z_rand);
+  mrpt.LF_maxRange = 1.0f;
+  mrpt.LF_useSquareDist = false;
+  mrpt.LF_alternateAverageMethod = false;
+  mrpt.enableLikelihoodCache = true;
+}
+
+COccupancyGridMap2D mrpt_map(const OccupancyGrid& map) {
+  const GridGeometry& g = map.geometry();
+  COccupancyGridMap2D result(0.0f, static_cast<float>(g.width * g.resolution_m), 0.0f,
+                             static_cast<float>(g.height * g.resolution_m),
+                             static_cast<float>(g.resolution_m));
+  for (int row = 0; row < g.height; ++row) {
+    for (int column = 0; column < g.width; ++column) {
+      const bool occupied = map.state(g.index(column, row)) == CellState::kOccupied;
+      result.setCell(column, row, occupied ? 0.01f : 0.99f);  // probability of being free
+    }
+  }
+  set_options(result.likelihoodOptions, LikelihoodFieldOptions{});
+  return result;
+}
+
+CObservation2DRangeScan mrpt_scan(const LaserScan& scan) {
+  CObservation2DRangeScan result;
+  result.aperture =
+      static_cast<float>(scan.angle_increment_rad * static_cast<double>(scan.ranges_m.size() - 1));
+  result.rightToLeft = true;
+  result.maxRange = static_cast<float>(scan.range_max_m);
+  result.resizeScan(scan.ranges_m.size());
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    result.setScanRange(i, scan.ranges_m[i]);
+    result.setScanRangeValidity(i, scan.is_valid_range(scan.ranges_m[i]));
+  }
+  return result;
+}
+
+std::vector<CPose3D> mrpt_poses(const std::vector<Pose2>& states) {
+  std::vector<CPose3D> poses;
+  for (const Pose2& pose : states) poses.emplace_back(pose.x, pose.y, 0.0, pose.theta, 0.0, 0.0);
+  return poses;
+}
+
+double correlation(const std::vector<double>& a, const std::vector<double>& b) {
+  const auto n = static_cast<double>(a.size());
+  double sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    sa += a[i], sb += b[i];
+    saa += a[i] * a[i], sbb += b[i] * b[i], sab += a[i] * b[i];
+  }
+  return (n * sab - sa * sb) / std::sqrt((n * saa - sa * sa) * (n * sbb - sb * sb));
+}
+
+// Both must compute the same thing for a comparison to mean something. The first pass also warms MRPT's cache
+// of cells.
+double agreement(COccupancyGridMap2D& map, const CObservation2DRangeScan& scan,
+                 const std::vector<CPose3D>& poses, const std::vector<Pose2>& states) {
+  LikelihoodFieldOptions options;
+  options.max_beams = 0;
+  const auto field = std::make_shared<const DistanceField>(*bench_world().map, options.max_distance_m);
+  std::vector<double> ours(states.size());
+  LikelihoodField(field, {}, {}, options).log_likelihood(bench_world().scan, states, ours);
+  std::vector<double> theirs;
+  for (const CPose3D& pose : poses) theirs.push_back(map.computeObservationLikelihood(scan, pose));
+  return correlation(ours, theirs);
+}
+
+void weigh(benchmark::State& state, std::vector<Pose2> (*particles)(std::size_t)) {
+  COccupancyGridMap2D map = mrpt_map(*bench_world().map);
+  const CObservation2DRangeScan scan = mrpt_scan(bench_world().scan);
+  const std::vector<Pose2> states = particles(static_cast<std::size_t>(state.range(0)));
+  const std::vector<CPose3D> poses = mrpt_poses(states);
+  const double agrees = agreement(map, scan, poses, states);
+  if (!(agrees > 0.99)) return state.SkipWithError("MRPT computes something else: no comparison");
+  for (auto _ : state) {
+    for (const CPose3D& pose : poses) benchmark::DoNotOptimize(map.computeObservationLikelihood(scan, pose));
+  }
+  state.SetItemsProcessed(state.iterations() * state.range(0) *
+                          static_cast<std::int64_t>(bench_world().scan.ranges_m.size()));
+  state.counters["correlation"] = agrees;
+}
+BENCHMARK_CAPTURE(weigh, tracking, tracking_particles)
+    ->Name("mrpt/likelihood_field/tracking")
+    ->Arg(2000)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(weigh, global, global_particles)
+    ->Name("mrpt/likelihood_field/global")
+    ->Arg(10000)
+    ->Unit(benchmark::kMicrosecond);
+
+void sample_motion(benchmark::State& state) {
+  CActionRobotMovement2D::TMotionModelOptions options;
+  options.modelSelection = CActionRobotMovement2D::mmGaussian;
+  CActionRobotMovement2D motion;
+  std::vector<CPose2D> states;
+  for (const Pose2& pose : tracking_particles(static_cast<std::size_t>(state.range(0)))) {
+    states.emplace_back(pose.x, pose.y, pose.theta);
+  }
+  for (auto _ : state) {
+    motion.computeFromOdometry(CPose2D(0.1, 0.0, 0.02), options);
+    motion.prepareFastDrawSingleSamples();
+    for (CPose2D& pose : states) {
+      CPose2D increment;
+      motion.fastDrawSingleSample(increment);
+      pose = pose + increment;
+    }
+    benchmark::DoNotOptimize(states.data());
+  }
+  state.SetItemsProcessed(state.iterations() * state.range(0));
+}
+BENCHMARK(sample_motion)->Name("mrpt/motion_sampling")->Arg(2000)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace cairn::bench
