@@ -11,7 +11,7 @@ namespace cairn {
 /// Error bound of KLD-sampling (Fox, "Adapting the sample size in particle filters through KLD-sampling",
 /// IJRR 2003; Sehestedt & Schneider, eq. 2).
 struct KldOptions {
-  double epsilon = 0.05;         ///< largest Kullback-Leibler distance to the true posterior
+  double epsilon = 0.1;          ///< largest Kullback-Leibler distance to the true posterior
   double confidence = 0.99;      ///< probability that the distance stays below epsilon, the 1 - delta
   double bin_size_m = 0.5;       ///< cells in which the support of the belief is counted
   double bin_size_rad = 0.1745;  ///< rounded so that a whole number of bins fills the circle

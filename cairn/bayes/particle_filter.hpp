@@ -2,6 +2,7 @@
 
 #include "cairn/bayes/models.hpp"
 #include "cairn/bayes/particle_set.hpp"
+#include "cairn/bayes/regularization.hpp"
 #include "cairn/bayes/resampling/systematic.hpp"
 #include "cairn/bayes/sample_size.hpp"
 #include "cairn/bayes/tempering.hpp"
@@ -20,7 +21,8 @@ struct ParticleFilterOptions {
   std::uint64_t seed = 1;
   /// Resample when ESS / N is below this: 1 before every prediction (unless all weights are equal), 0 never.
   double resample_ess_ratio = 1.0;
-  /// No measurement may leave fewer effective samples than this share of N (see tempering_exponent); 0: off.
+  /// A measurement enters in portions that leave at least this effective share of the particles (see
+  /// correct); 0: all at once.
   double min_ess_share = 0.0;
 };
 
@@ -34,10 +36,12 @@ template <class State, class Control>
 class ParticleFilter {
  public:
   ParticleFilter(std::shared_ptr<const MotionModel<State, Control>> motion,
-                 std::unique_ptr<SampleSize<State>> size, std::shared_ptr<const Executor> executor,
-                 const ParticleFilterOptions& options)
+                 std::unique_ptr<SampleSize<State>> size,
+                 std::unique_ptr<Regularization<State>> regularization,
+                 std::shared_ptr<const Executor> executor, const ParticleFilterOptions& options)
       : motion_(std::move(motion)),
         size_(std::move(size)),
+        regularization_(std::move(regularization)),
         executor_(std::move(executor)),
         options_(options) {}
 
@@ -63,19 +67,21 @@ class ParticleFilter {
     } else {
       predict(u, particles_.states, 0);
     }
-    weigh(z);
+    correct(z);
   }
 
   const ParticleSet<State>& particles() const { return particles_; }
   /// Effective sample size after the last measurement, 1..N.
   double ess() const { return ess_; }
-  /// Exponent with which the last measurement entered (1: in full).
-  double last_exponent() const { return exponent_; }
+  /// Share of the last measurement's log-likelihood that entered, 0..1 (see correct).
+  double share_entered() const { return share_entered_; }
 
  private:
   static constexpr std::size_t kChunk =
       128;  // particles per task; fixed, so that results do not depend on threads
   static constexpr std::size_t kSmallestBatch = 64;
+  static constexpr std::uint32_t kMostPasses = 5;
+  static constexpr double kNegligibleShare = 0.01;
 
   // Fox 2003, table 1: draw ancestors and predict them until there are as many as the predicted spread asks
   // for. Each batch is one systematic comb over all ancestors.
@@ -106,19 +112,47 @@ class ParticleFilter {
     });
   }
 
-  void weigh(const BoundUpdate<State>& z) {
+  // Progressive correction (Oudjane & Musso, FUSION 2000): the likelihood enters in portions, each small
+  // enough to keep `min_ess_share`; between them the particles are resampled and moved a little, so that the
+  // next portion finds them where the posterior is. Without a regularization one portion enters, the rest is
+  // given up.
+  void correct(const BoundUpdate<State>& z) {
+    double left = 1.0;
+    for (std::uint32_t pass = 0;; ++pass) {
+      left -= weigh(z, left);
+      if (left < kNegligibleShare || pass == kMostPasses || !regularization_) break;
+      if (!regularization_->fit(particles_)) break;
+      resample_and_move(pass);
+    }
+    share_entered_ = 1.0 - left;
+  }
+
+  // Multiplies the weights by the likelihood to the power of at most `share`; returns the power.
+  double weigh(const BoundUpdate<State>& z, double share) {
     log_likelihoods_.resize(particles_.size());
     executor_->for_each_chunk(particles_.size(), kChunk, [&](std::size_t begin, std::size_t end) {
       z.log_likelihood(std::span<const State>(particles_.states).subspan(begin, end - begin),
                        std::span(log_likelihoods_).subspan(begin, end - begin));
     });
     const double min_ess = options_.min_ess_share * static_cast<double>(particles_.size());
-    exponent_ = min_ess > 1.0 ? tempering_exponent(particles_.log_weights, log_likelihoods_, min_ess) : 1.0;
-    for (std::size_t i = 0; i < particles_.size(); ++i) {
-      particles_.log_weights[i] += exponent_ * log_likelihoods_[i];
-    }
+    const double power = tempering_exponent(particles_.log_weights, log_likelihoods_, min_ess, share);
+    for (std::size_t i = 0; i < particles_.size(); ++i)
+      particles_.log_weights[i] += power * log_likelihoods_[i];
     normalize_log_weights(particles_.log_weights);
     ess_ = effective_sample_size(particles_.log_weights);
+    return power;
+  }
+
+  void resample_and_move(std::uint32_t pass) {
+    const RandomStream random(options_.seed, RandomPurpose::kRegularize, step_);
+    ancestors_.clear();
+    draw_systematic(cumulative_weights(particles_.log_weights), particles_.size(), random.uniform(pass),
+                    ancestors_);
+    next_.clear();
+    for (const std::uint32_t ancestor : ancestors_) next_.push_back(particles_.states[ancestor]);
+    regularization_->move(next_, random, static_cast<std::uint16_t>(pass + 1));
+    std::swap(particles_.states, next_);
+    set_uniform_weights();
   }
 
   void set_uniform_weights() {
@@ -129,6 +163,7 @@ class ParticleFilter {
 
   std::shared_ptr<const MotionModel<State, Control>> motion_;
   std::unique_ptr<SampleSize<State>> size_;
+  std::unique_ptr<Regularization<State>> regularization_;
   std::shared_ptr<const Executor> executor_;
   ParticleFilterOptions options_;
   ParticleSet<State> particles_;
@@ -137,7 +172,7 @@ class ParticleFilter {
   std::vector<double> log_likelihoods_;
   std::uint64_t step_ = 0;
   double ess_ = 0.0;
-  double exponent_ = 1.0;
+  double share_entered_ = 1.0;
 };
 
 }  // namespace cairn

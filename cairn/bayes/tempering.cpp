@@ -28,16 +28,16 @@ double tempered_ess(std::span<const double> priors, std::span<const double> like
 }  // namespace
 
 double tempering_exponent(std::span<const double> log_priors, std::span<const double> log_likelihoods,
-                          double min_ess) {
+                          double min_ess, double largest) {
   CAIRN_ASSERT(log_priors.size() == log_likelihoods.size());
-  if (log_priors.empty()) return 1.0;
+  if (log_priors.empty() || min_ess <= 1.0) return largest;
   std::vector<double> scratch(log_priors.size());
   const auto keeps = [&](double log_exponent) {
     return tempered_ess(log_priors, log_likelihoods, std::exp(log_exponent), scratch) >= min_ess;
   };
-  if (keeps(0.0)) return 1.0;
-  double low = std::log(kSmallestExponent);
-  double high = 0.0;
+  double high = std::log(largest);
+  if (keeps(high)) return largest;
+  double low = high + std::log(kSmallestExponent);
   while (high - low > 1e-3) {
     const double middle = 0.5 * (low + high);
     (keeps(middle) ? low : high) = middle;

@@ -19,6 +19,7 @@ enum class RandomPurpose : std::uint16_t {
   kResample = 2,
   kSimulation = 3,
   kTest = 4,
+  kRegularize = 5,
 };
 
 /// Random numbers as a pure function of (seed, purpose, step, item, draw).

@@ -33,8 +33,10 @@ void FilterOptions::visit(OptionVisitor& v) {
       {"resample_ess_ratio", "recipe mcl resamples when the effective share of the particles is below this"},
       resample_ess_ratio, {0.0, 1.0});
   v.number({"min_ess_share",
-            "a measurement is flattened rather than leave a smaller effective share of the particles"},
+            "a scan enters in portions that leave at least this effective share of the particles"},
            min_ess_share, {0.0, 0.9});
+  v.section({"kernel", "small moves of the particles between the portions"},
+            [this](OptionVisitor& inner) { kernel.visit(inner); });
 }
 
 void FilterOptions::validate() const {

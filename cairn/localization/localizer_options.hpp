@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cairn/bayes/kld.hpp"
+#include "cairn/bayes/pose_kernel.hpp"
 #include "cairn/core/options.hpp"
 #include "cairn/models/motion/differential_drive.hpp"
 #include "cairn/models/sensor/beam_selection.hpp"
@@ -27,7 +28,8 @@ struct FilterOptions {
   int max_particles = 10000;
   KldOptions kld;
   double resample_ess_ratio = 0.5;  ///< recipe mcl
-  double min_ess_share = 0.02;
+  double min_ess_share = 0.15;
+  PoseKernelOptions kernel;
 
   void visit(OptionVisitor& visitor);
   void validate() const;  ///< @throws ConfigurationError
