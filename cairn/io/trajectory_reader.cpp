@@ -1,30 +1,26 @@
 #include "cairn/io/trajectory_reader.hpp"
 
 #include "cairn/core/errors.hpp"
+#include "cairn/io/carmen_log.hpp"
 #include "cairn/io/input_file.hpp"
 #include "cairn/io/plain_trajectory.hpp"
 #include "cairn/io/pose_collector.hpp"
 #include "cairn/io/tum_trajectory.hpp"
-
-#include <algorithm>
+#include "cairn/io/wean_log.hpp"
 
 namespace cairn {
 namespace {
 
-enum class Format { kCarmen, kTum, kPlain, kCsv };
-
-// CARMEN message names are upper-case words such as PARAM, ODOM, FLASER, ROBOTLASER1.
-bool is_message_name(std::string_view word) {
-  const auto is_upper = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; };
-  return word.size() >= 4 && word[0] >= 'A' && std::all_of(word.begin(), word.end(), is_upper);
-}
+enum class Format { kCarmen, kWean, kTum, kPlain, kCsv };
 
 Format format_of(std::istream& input, const std::string& name) {
   LineReader lines(input, name);
   if (!next_data_line(lines)) throw InputError(name, "holds no pose", "check that it is the right file");
   FieldReader fields(lines);
   const std::size_t count = fields.fields_left();
-  if (is_message_name(fields.word("stamp"))) return Format::kCarmen;
+  const std::string_view first = fields.word("stamp");
+  if (is_carmen_message(first)) return Format::kCarmen;
+  if (first == "O" || first == "L") return Format::kWean;
   if (lines.line().find(',') != std::string_view::npos) return Format::kCsv;
   if (count == 8) return Format::kTum;
   if (count == 4) return Format::kPlain;
@@ -59,6 +55,8 @@ Trajectory read_trajectory(std::istream& input, const std::string& name, const T
   switch (format) {
     case Format::kCarmen:
       return read_carmen_trajectory(input, name, options.carmen_pose, diagnostics);
+    case Format::kWean:
+      return read_wean_trajectory(input, name);
     case Format::kTum:
       return read_tum(input, name, diagnostics);
     case Format::kCsv:

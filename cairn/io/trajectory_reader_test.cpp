@@ -58,6 +58,7 @@ TEST(ReadTrajectory, ReadsTheRealFiles) {
       {"radish_reference/intel_reference_dense.txt", 13000},
       {"radish_derived/aces.ref.txt", 100},
       {"jarvis_nav350/text/complex_gt.txt", 500},
+      {"wean/robotdata101.log", 1000},
       {"rawseeds_eval/Bicocca_2009-02-25a/Bicocca_2009-02-25a-GROUNDTRUTH.csv", 1000}};
   for (const auto& [name, at_least] : files) {
     CAIRN_SKIP_WITHOUT(name);

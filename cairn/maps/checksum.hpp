@@ -1,0 +1,13 @@
+#pragma once
+
+#include "cairn/maps/occupancy_grid.hpp"
+
+#include <cstdint>
+
+namespace cairn {
+
+/// Fingerprint of a grid: equal for equal geometry (to the bit) and equal states of all cells, the same on
+/// every machine (FNV-1a, 64 bits). It tells maps apart; it does not protect against forgery.
+std::uint64_t checksum(const OccupancyGrid& grid);
+
+}  // namespace cairn
