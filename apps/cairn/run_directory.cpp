@@ -2,9 +2,11 @@
 
 #include "apps/cairn/run_tables.hpp"
 #include "cairn/core/errors.hpp"
+#include "cairn/io/map_reader.hpp"
+#include "cairn/io/map_yaml.hpp"
 
 #include <fstream>
-#include <sstream>
+#include <iterator>
 #include <system_error>
 
 namespace cairn::app {
@@ -17,15 +19,6 @@ constexpr const char* kMarker = "metrics.json";
 // Files that a run may lack: those of an earlier run must not stay beside a new one.
 constexpr const char* kOptional[] = {"particles.csv", "reference.tum", "map.yaml", "map.png", "report.html"};
 constexpr const char* kRunAgain = "write the run again with `cairn localize --out`";
-
-std::string read_file(const fs::path& path) {
-  if (!fs::is_regular_file(path)) throw InputError(path.string(), "is missing", kRunAgain);
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream content;
-  content << file.rdbuf();
-  if (!file || content.fail()) throw InputError(path.string(), "cannot be read", "look at its permissions");
-  return content.str();
-}
 
 nlohmann::json read_metrics(const fs::path& path) {
   const std::string text = read_file(path);
@@ -52,6 +45,7 @@ void write_stage(const fs::path& stage, const RunData& run) {
   write_file(stage / "estimate.csv", to_csv(run.estimates));
   write_file(stage / "config.yaml", run.configuration);
   if (!run.particles.empty()) write_file(stage / "particles.csv", to_csv(run.particles));
+  if (run.map) write_map(stage / "map.yaml", *run.map);
   if (run.reference) write_file(stage / "reference.tum", to_tum(*run.reference));
   // Names in a log need not be UTF-8: what is not becomes the replacement character.
   write_file(stage / kMarker,
@@ -107,6 +101,7 @@ RunData read_run(const fs::path& directory) {
   run.trajectory = parse_tum(text("trajectory.tum"), label("trajectory.tum"));
   run.estimates = parse_estimates(text("estimate.csv"), label("estimate.csv"));
   run.configuration = text("config.yaml");
+  if (fs::exists(directory / "map.yaml")) run.map = read_map(directory / "map.yaml");
   if (fs::exists(directory / "particles.csv")) {
     run.particles = parse_particles(text("particles.csv"), label("particles.csv"));
   }
@@ -114,6 +109,14 @@ RunData read_run(const fs::path& directory) {
     run.reference = parse_tum(text("reference.tum"), label("reference.tum"));
   }
   return run;
+}
+
+std::string read_file(const fs::path& path) {
+  if (!fs::is_regular_file(path)) throw InputError(path.string(), "is missing", kRunAgain);
+  std::ifstream file(path, std::ios::binary);
+  std::string content{std::istreambuf_iterator<char>(file), {}};
+  if (!file) throw InputError(path.string(), "cannot be read", "look at its permissions");
+  return content;
 }
 
 void write_file(const fs::path& path, std::string_view content) {

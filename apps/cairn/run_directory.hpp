@@ -41,6 +41,10 @@ void write_run(const std::filesystem::path& directory, const RunData& run);
 /// @throws InputError that names the file (and line) that is missing or damaged, and what to do.
 RunData read_run(const std::filesystem::path& directory);
 
+/// Whole content of one file of a run.
+/// @throws InputError if it is missing or cannot be read
+std::string read_file(const std::filesystem::path& path);
+
 /// Writes one file of a run by way of a temporary name.
 /// @throws InputError where the disk refuses.
 void write_file(const std::filesystem::path& path, std::string_view content);

@@ -61,6 +61,8 @@ RunData small_run() {
   run.metrics = {{"cairn_version", "0.1.0"}, {"recipe", "mcl"}};
   run.configuration = "recipe: mcl\n";
   run.particles = {{at(1.0), {{1, 2, 3}, {4, 5, -3}}}, {at(2.0), {{0.1, 0.2, 0.3}}}};
+  run.map = std::make_shared<OccupancyGrid>(GridGeometry{3, 2, 0.05, {-1.5, 2.25, 0.5}},
+                                            std::vector<OccupancyGrid::Cell>{0, 100, -1, 100, 0, 0});
   run.reference = Trajectory{{at(0.0), {0, 0, 0}}};
   return run;
 }
@@ -71,8 +73,8 @@ TEST_F(RunDirectory, ReadsBackWhatWasWritten) {
   const RunData read = read_run(directory_);
   ASSERT_EQ(read.trajectory.size(), 2u);
   EXPECT_EQ(read.trajectory[1].stamp, run.trajectory[1].stamp);
-  EXPECT_EQ(read.trajectory[1].pose.x, run.trajectory[1].pose.x);
-  EXPECT_NEAR(read.trajectory[1].pose.theta, -3.0, 1e-15);
+  EXPECT_NEAR(read.trajectory[1].pose.x, run.trajectory[1].pose.x, 1e-9);
+  EXPECT_NEAR(read.trajectory[1].pose.theta, -3.0, 1e-11);
   ASSERT_EQ(read.estimates.size(), 1u);
   EXPECT_EQ(read.estimates[0].T_map_base, run.estimates[0].T_map_base);
   EXPECT_EQ(read.estimates[0].covariance, run.estimates[0].covariance);
@@ -83,6 +85,9 @@ TEST_F(RunDirectory, ReadsBackWhatWasWritten) {
   ASSERT_EQ(read.particles.size(), 2u);
   EXPECT_EQ(read.particles[0].particles, run.particles[0].particles);
   EXPECT_EQ(read.reference, run.reference);
+  ASSERT_TRUE(read.map);
+  EXPECT_EQ(read.map->geometry(), run.map->geometry());
+  EXPECT_EQ(read.map->cells(), run.map->cells());
 }
 
 TEST_F(RunDirectory, WritesTheSameBytesAgain) {
@@ -92,7 +97,7 @@ TEST_F(RunDirectory, WritesTheSameBytesAgain) {
   write_run(directory_, small_run());
   EXPECT_EQ(content("trajectory.tum"), trajectory);
   EXPECT_EQ(content("estimate.csv"), estimate);
-  EXPECT_THAT(trajectory, testing::StartsWith("1.250000000 1 -2.5 0 0 0 0.04997916927067833 "));
+  EXPECT_THAT(trajectory, testing::StartsWith("1.250000000 1.000000000 -2.500000000 0 0 0 0.049979169271 "));
   EXPECT_THAT(estimate, HasSubstr("\n1.250000000,0.1,0.2857142857142857,-1.5,0.01,1e-17,-0.003,"));
 }
 
@@ -102,9 +107,11 @@ TEST_F(RunDirectory, LeavesNothingOfAnEarlierRunBehind) {
   RunData bare = small_run();
   bare.reference.reset();
   bare.particles.clear();
+  bare.map.reset();
   write_run(directory_, bare);
   EXPECT_FALSE(fs::exists(directory_ / "report.html"));
   EXPECT_FALSE(fs::exists(directory_ / ".writing"));
+  EXPECT_FALSE(fs::exists(directory_ / "map.png"));
   EXPECT_FALSE(read_run(directory_).reference.has_value());
   EXPECT_TRUE(read_run(directory_).particles.empty());
 }
@@ -135,6 +142,16 @@ TEST_F(RunDirectory, NamesTheMissingFile) {
     EXPECT_THAT(error_of_reading(), HasSubstr(std::string(name) + ": is missing; write the run again"));
     fs::remove_all(directory_);
   }
+}
+
+TEST_F(RunDirectory, TakesARunWithoutASinglePose) {
+  RunData run;
+  run.metrics = {{"cairn_version", "0.1.0"}};
+  write_run(directory_, run);
+  const RunData read = read_run(directory_);
+  EXPECT_TRUE(read.trajectory.empty());
+  EXPECT_TRUE(read.estimates.empty());
+  EXPECT_FALSE(read.map);
 }
 
 TEST_F(RunDirectory, KeepsNamesThatAreNotUtf8Readable) {

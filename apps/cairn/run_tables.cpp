@@ -1,24 +1,28 @@
 #include "apps/cairn/run_tables.hpp"
 
-#include "cairn/core/angle.hpp"
+#include "cairn/core/diagnostics.hpp"
 #include "cairn/core/errors.hpp"
+#include "cairn/io/tum_trajectory.hpp"
 
 #include <charconv>
 #include <cmath>
 #include <initializer_list>
+#include <sstream>
 
 namespace cairn::app {
 namespace {
+
+constexpr const char* kRunAgain = "write the run again with `cairn localize --out`";
 
 void append(std::string& text, double value) {
   char digits[32];
   text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
 }
 
-void append_row(std::string& text, char separator, Time stamp, std::initializer_list<double> values) {
+void append_row(std::string& text, Time stamp, std::initializer_list<double> values) {
   text += format_time(stamp);
   for (const double value : values) {
-    text += separator;
+    text += ',';
     append(text, value);
   }
   text += '\n';
@@ -27,8 +31,7 @@ void append_row(std::string& text, char separator, Time stamp, std::initializer_
 // Walks over the rows of a table; knows the line for messages.
 class TableReader {
  public:
-  TableReader(std::string_view text, const std::string& name, char separator)
-      : rest_(text), name_(name), separator_(separator) {}
+  TableReader(std::string_view text, const std::string& name) : rest_(text), name_(name) {}
 
   void expect_header(std::string_view header) {
     if (!next() || row_ != header) fail("the header is not '" + std::string(header) + "'");
@@ -84,13 +87,13 @@ class TableReader {
   }
 
   [[noreturn]] void fail(const std::string& what) const {
-    throw InputError(name_ + ":" + std::to_string(line_), what, "write the run again with `cairn localize`");
+    throw InputError(name_ + ":" + std::to_string(line_), what, kRunAgain);
   }
 
  private:
   std::string_view next_field() {
     if (row_ended_) fail("the row has too few fields");
-    const std::size_t end = row_.find(separator_);
+    const std::size_t end = row_.find(',');
     const std::string_view field = row_.substr(0, end);
     row_ended_ = end == std::string_view::npos;
     if (!row_ended_) row_.remove_prefix(end + 1);
@@ -106,7 +109,6 @@ class TableReader {
   std::string_view rest_;
   std::string_view row_;
   std::string name_;
-  char separator_;
   bool row_ended_ = true;
   int line_ = 0;
 };
@@ -137,28 +139,18 @@ Estimate parse_estimate(TableReader& table) {
 }  // namespace
 
 std::string to_tum(const Trajectory& trajectory) {
-  std::string text;
-  for (const auto& [stamp, pose] : trajectory) {
-    const double half = pose.theta / 2.0;
-    append_row(text, ' ', stamp, {pose.x, pose.y, 0.0, 0.0, 0.0, std::sin(half), std::cos(half)});
-  }
-  return text;
+  std::ostringstream text;
+  write_tum(text, trajectory);
+  return text.str();
 }
 
-Trajectory parse_tum(std::string_view text, const std::string& name) {
-  Trajectory trajectory;
-  for (TableReader table(text, name, ' '); table.next();) {
-    const Time stamp = table.stamp();
-    const double x = table.number();
-    const double y = table.number();
-    for (int i = 0; i < 3; ++i) table.number();  // z, qx, qy: the robot drives in the plane
-    const double qz = table.number();
-    const double qw = table.number();
-    table.expect_end();
-    if (!(std::hypot(qz, qw) > 0.5)) table.fail("the quaternion is no rotation in the plane");
-    expect_later(table, trajectory, stamp);
-    trajectory.push_back({stamp, {x, y, normalize_angle(2.0 * std::atan2(qz, qw))}});
-  }
+Trajectory parse_tum(const std::string& text, const std::string& name) {
+  if (text.empty()) return {};
+  if (text.back() != '\n') throw InputError(name, "the last row is cut short", kRunAgain);
+  std::istringstream input(text);
+  Diagnostics diagnostics;
+  Trajectory trajectory = read_tum(input, name, diagnostics);
+  if (!diagnostics.empty()) throw InputError(diagnostics.examples().front().text, "is damaged", kRunAgain);
   return trajectory;
 }
 
@@ -168,7 +160,7 @@ std::string to_csv(const std::vector<Estimate>& estimates) {
   for (const Estimate& e : estimates) {
     const Pose2& p = e.T_map_base;
     const Eigen::Matrix3d& c = e.covariance;
-    append_row(text, ',', e.stamp,
+    append_row(text, e.stamp,
                {p.x, p.y, p.theta, c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2), e.ess,
                 static_cast<double>(e.particles), static_cast<double>(e.hypotheses), e.weight, e.quality});
   }
@@ -177,7 +169,7 @@ std::string to_csv(const std::vector<Estimate>& estimates) {
 
 std::vector<Estimate> parse_estimates(std::string_view text, const std::string& name) {
   std::vector<Estimate> estimates;
-  TableReader table(text, name, ',');
+  TableReader table(text, name);
   table.expect_header(kEstimateHeader);
   while (table.next()) {
     const Estimate estimate = parse_estimate(table);
@@ -191,14 +183,14 @@ std::string to_csv(const std::vector<ParticleSnapshot>& snapshots) {
   std::string text(kParticleHeader);
   text += '\n';
   for (const ParticleSnapshot& snapshot : snapshots) {
-    for (const Pose2& p : snapshot.particles) append_row(text, ',', snapshot.stamp, {p.x, p.y, p.theta});
+    for (const Pose2& p : snapshot.particles) append_row(text, snapshot.stamp, {p.x, p.y, p.theta});
   }
   return text;
 }
 
 std::vector<ParticleSnapshot> parse_particles(std::string_view text, const std::string& name) {
   std::vector<ParticleSnapshot> snapshots;
-  TableReader table(text, name, ',');
+  TableReader table(text, name);
   table.expect_header(kParticleHeader);
   while (table.next()) {
     const Time stamp = table.stamp();

@@ -15,10 +15,9 @@ namespace cairn::app {
 // header, a missing or surplus field, a word where a number belongs, NaN, infinity, and stamps that do not
 // increase.
 
-/// `t x y z qx qy qz qw`, seconds, metres, unit quaternion; z = qx = qy = 0. (The format of the TUM RGB-D
-/// benchmark.)
+/// TUM text, see cairn/io/tum_trajectory.hpp; here an empty trajectory is an empty text.
 std::string to_tum(const Trajectory& trajectory);
-Trajectory parse_tum(std::string_view text, const std::string& name);
+Trajectory parse_tum(const std::string& text, const std::string& name);
 
 /// Columns `kEstimateHeader`: units m and rad, variances m^2, m rad and rad^2.
 std::string to_csv(const std::vector<Estimate>& estimates);
