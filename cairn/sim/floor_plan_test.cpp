@@ -2,6 +2,8 @@
 
 #include "cairn/core/errors.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace cairn {
