@@ -20,5 +20,6 @@ using Runner = std::function<int()>;
 void add_log(CLI::App& program, Runner& run);
 void add_report(CLI::App& program, Runner& run);
 void add_score(CLI::App& program, Runner& run);
+void add_simulate(CLI::App& program, Runner& run);
 
 }  // namespace cairn::app

@@ -10,10 +10,10 @@ namespace cairn {
 
 /// Limits of a differential-drive robot, and how often its true pose is told.
 struct DriveLimits {
-  double speed_mps = 0.8;
-  double turn_rate_radps = 1.0;
-  double acceleration_mps2 = 0.5;
-  double turn_acceleration_radps2 = 1.5;
+  double speed_mps = 0.9;
+  double turn_rate_radps = 1.2;
+  double acceleration_mps2 = 0.7;
+  double turn_acceleration_radps2 = 2.5;
   Duration step = std::chrono::milliseconds(20);  ///< of the true trajectory
 };
 
