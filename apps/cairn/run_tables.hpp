@@ -12,8 +12,8 @@ namespace cairn::app {
 // The text tables of a run directory. Stamps are seconds with nine decimals; every other number is the
 // shortest decimal that reads back as the same double, so that equal results give equal bytes. The parsers
 // take the whole text of a file and its name, and throw InputError "name:line: what; what to do" for a wrong
-// header, a missing or surplus field, a word where a number belongs, NaN, infinity, and stamps that do not
-// increase.
+// header, a missing or surplus field, a word where a number belongs, NaN, infinity, and stamps that run
+// backwards.
 
 /// TUM text, see cairn/io/tum_trajectory.hpp; here an empty trajectory is an empty text.
 std::string to_tum(const Trajectory& trajectory);
@@ -24,8 +24,7 @@ std::string to_csv(const std::vector<Estimate>& estimates);
 std::vector<Estimate> parse_estimates(std::string_view text, const std::string& name);
 inline constexpr std::string_view kEstimateHeader =
     "stamp_s,x_m,y_m,theta_rad,var_x,cov_xy,cov_x_theta,var_y,cov_y_theta,var_theta,ess,particles,hypotheses,"
-    "weight,"
-    "quality";
+    "weight,quality";
 
 /// Columns `kParticleHeader`: the rows of one stamp are one snapshot.
 std::string to_csv(const std::vector<ParticleSnapshot>& snapshots);

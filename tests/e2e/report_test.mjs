@@ -197,6 +197,16 @@ async function colorsFollowTheSystem(page) {
   (await colorsOfCanvases(page)).forEach((n, i) => assert.ok(n > 5, `canvas ${i} is blank in the dark`));
 }
 
+// On paper everything is light and as wide as the page.
+async function printsOnPaper(page) {
+  await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
+  assert.ok(await brightness(page) > 180, 'the map is printed dark');
+  const widths = await page.$$eval('canvas', (all) => all.map((canvas) => canvas.getBoundingClientRect().right));
+  assert.ok(Math.max(...widths) < 1060, 'a chart is wider than the page');
+  await page.evaluate(() => dispatchEvent(new Event('afterprint')));
+  assert.ok(await brightness(page) < 100, 'the page did not return from printing');
+}
+
 async function fullRun(browser) {
   const page = await open(browser, 'full');
   await everythingIsDrawn(page);
@@ -208,6 +218,7 @@ async function fullRun(browser) {
   await layersSwitch(page);
   await colorsAndZoomChange(page);
   await colorsFollowTheSystem(page);
+  await printsOnPaper(page);
   assert.deepEqual(page.complaints, []);
 }
 

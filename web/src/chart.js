@@ -22,7 +22,10 @@ export function addChart(parent, { height = 240, options, label, overTime = fals
     chart.group = kGroup;
     connect(kGroup);
   }
-  const draw = () => chart.setOption({ animation: false, textStyle: { fontFamily: kFont }, ...options() }, { notMerge: true });
+  const draw = () => {
+    chart.resize();
+    chart.setOption({ animation: false, textStyle: { fontFamily: kFont }, ...options() }, { notMerge: true });
+  };
   draw();
   onThemeChange.add(draw);
   new ResizeObserver(() => chart.resize()).observe(box);

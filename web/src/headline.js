@@ -25,6 +25,7 @@ function drawVerdict(metrics) {
   if (metrics.verdict) badges.push(badge(lost ? 'bad' : 'good', lost ? '✕ lost' : '✓ tracking'));
   if (metrics.interrupted) badges.push(badge('warn', '! interrupted'));
   byId('verdict').append(...badges);
+  if (metrics.verdict_reason) byId('verdict').append(el('p', {}, metrics.verdict_reason));
 }
 
 function usedShare(outcomes) {

@@ -154,7 +154,7 @@ function closeUp(scene, timeline) {
     const b = nearest(belief.t, timeline.now);
     const sigma = b < 0 ? 0 : ellipseOf(belief.var_x[b], belief.cov_xy[b], belief.var_y[b]).major;
     const error = errors ? errors.position_m[nearest(errors.t, timeline.now)] ?? 0 : 0;
-    const span = [1.5, 3, 6, 12, 25].find((size) => size >= Math.max(7 * sigma, 3 * error)) ?? 50;
+    const span = [0.6, 1.5, 3, 6, 12, 25].find((size) => size >= Math.max(14 * sigma, 3 * error)) ?? 50;
     Object.assign(view.camera, { x: pose.x, y: pose.y, scale: view.camera.width / span });
   };
   return view;

@@ -1,5 +1,4 @@
 // What is drawn over the map: each function draws one layer of one instant.
-import { kDegrees } from './format.js';
 import { color, scaleColor } from './theme.js';
 import { nearest, poseAt } from './series.js';
 
@@ -169,5 +168,3 @@ export function drawScaleBar(context, camera) {
   context.fillText(metres < 1 ? `${Math.round(metres * 100)} cm` : `${metres} m`, x + pixels / 2, y - 8);
   context.restore();
 }
-
-export const headingDegrees = (theta) => theta * kDegrees;

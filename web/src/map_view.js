@@ -15,7 +15,7 @@ export class MapView {
     this.pending = false;
     new ResizeObserver(() => this.resize(onResize)).observe(this.canvas);
     timeline.onChange(() => this.redraw());
-    onThemeChange.add(() => this.draw());
+    onThemeChange.add(() => this.resize(onResize));
   }
 
   resize(onResize) {
@@ -50,10 +50,10 @@ export class MapView {
     if (layers.map) image.draw(context, camera);
     if (layers.reference) drawReference(context, camera, run);
     if (layers.estimate) drawEstimate(context, camera, run, now, scale());
-    if (layers.particles) drawCloud(context, camera, run, now);
-    if (layers.ellipse) drawEllipse(context, camera, run, now);
     if (layers.reference && run.reference) drawRobot(context, camera, poseAt(run.reference, now), color('reference'));
     if (layers.estimate) drawRobot(context, camera, poseAt(run.path, now), color('estimate'));
+    if (layers.particles) drawCloud(context, camera, run, now);
+    if (layers.ellipse) drawEllipse(context, camera, run, now);
     drawScaleBar(context, camera);
   }
 }
