@@ -18,6 +18,7 @@ using Runner = std::function<int()>;
 
 // One file per subcommand: each adds its options to `program` and, when chosen, sets `run`.
 void add_log(CLI::App& program, Runner& run);
+void add_map(CLI::App& program, Runner& run);
 void add_report(CLI::App& program, Runner& run);
 void add_score(CLI::App& program, Runner& run);
 void add_simulate(CLI::App& program, Runner& run);

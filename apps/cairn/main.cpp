@@ -37,6 +37,7 @@ int main(int argc, char** argv) {
   program.require_subcommand(1);
   cairn::app::Runner run;
   cairn::app::add_log(program, run);
+  cairn::app::add_map(program, run);
   cairn::app::add_report(program, run);
   cairn::app::add_score(program, run);
   cairn::app::add_simulate(program, run);

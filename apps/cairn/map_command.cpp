@@ -1,0 +1,188 @@
+#include "apps/cairn/commands.hpp"
+#include "apps/cairn/map_building.hpp"
+#include "apps/cairn/pose_option.hpp"
+#include "cairn/core/errors.hpp"
+#include "cairn/io/log_reader.hpp"
+#include "cairn/io/map_reader.hpp"
+#include "cairn/io/map_yaml.hpp"
+#include "cairn/io/trajectory_reader.hpp"
+#include "cairn/maps/checksum.hpp"
+
+#include <iostream>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
+
+namespace cairn::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct BuildArguments {
+  std::string log, trajectory, stream, mount, out;
+  std::string frame = "base";
+  MapBuildingOptions options;
+};
+
+struct InfoArguments {
+  std::string map;
+  bool json = false;
+};
+
+void warn_of(const std::string& path, const Diagnostics& diagnostics) {
+  for (const auto& [kind, count] : diagnostics.counts()) spdlog::warn("{}: {} ({} times)", path, kind, count);
+}
+
+MapBuildingOptions options_of(const BuildArguments& arguments) {
+  MapBuildingOptions options = arguments.options;
+  options.stream = arguments.stream;
+  if (!arguments.mount.empty()) options.T_base_sensor = parse_pose("--mount", arguments.mount);
+  if (arguments.frame != "base" && arguments.frame != "sensor") {
+    throw ConfigurationError("--trajectory-frame", "'" + arguments.frame + "' is not known",
+                             "use base or sensor");
+  }
+  options.trajectory_is_of_sensor = arguments.frame == "sensor";
+  return options;
+}
+
+/// One line on standard error per tenth of the work.
+std::function<void(double)> lines_per_tenth() {
+  return [tenths = 0](double done) mutable {
+    for (; tenths < static_cast<int>(10.0 * done); ++tenths) spdlog::info("map: {} %", 10 * (tenths + 1));
+  };
+}
+
+Trajectory read_path(const BuildArguments& arguments, const Log& log, StreamId stream) {
+  Diagnostics diagnostics;
+  TrajectoryOptions options;
+  options.frame_stamps = stamps_of(log, stream);
+  Trajectory path = read_trajectory(arguments.trajectory, options, diagnostics);
+  warn_of(arguments.trajectory, diagnostics);
+  return path;
+}
+
+int run_build(const BuildArguments& arguments) {
+  const MapBuildingOptions options = options_of(arguments);
+  const Log log = read_log(arguments.log);
+  warn_of(arguments.log, log.diagnostics);
+  const Trajectory path = read_path(arguments, log, laser_stream(log, options.stream));
+  const BuiltMap map = build_map(log, path, options, lines_per_tenth());
+  if (map.scans_without_pose > 0) {
+    spdlog::warn("{} of {} scans have no pose in the trajectory and were left out", map.scans_without_pose,
+                 map.scans_without_pose + map.scans_used + map.scans_without_return);
+  }
+  write_map(arguments.out, map.grid);
+  spdlog::info("{}: {} x {} cells of {} m from {} scans", arguments.out, map.grid.geometry().width,
+               map.grid.geometry().height, options.grid.resolution_m, map.scans_used);
+  return kOk;
+}
+
+/// What `map info` says of a map.
+struct MapFigures {
+  explicit MapFigures(const OccupancyGrid& grid)
+      : geometry(grid.geometry()),
+        free(grid.count(CellState::kFree)),
+        occupied(grid.count(CellState::kOccupied)),
+        unknown(grid.count(CellState::kUnknown)),
+        sum(fmt::format("{:016x}", checksum(grid))) {}
+  double share(std::size_t count) const {
+    return static_cast<double>(count) / static_cast<double>(geometry.size());
+  }
+  double free_area_m2() const {
+    return static_cast<double>(free) * geometry.resolution_m * geometry.resolution_m;
+  }
+  double width_m() const { return geometry.width * geometry.resolution_m; }
+  double height_m() const { return geometry.height * geometry.resolution_m; }
+
+  GridGeometry geometry;
+  std::size_t free, occupied, unknown;
+  std::string sum;
+};
+
+std::string as_json(const MapFigures& f) {
+  const Pose2& T = f.geometry.T_map_grid;
+  const Json json = {{"width_cells", f.geometry.width},
+                     {"height_cells", f.geometry.height},
+                     {"resolution_m", f.geometry.resolution_m},
+                     {"width_m", f.width_m()},
+                     {"height_m", f.height_m()},
+                     {"origin", {{"x_m", T.x}, {"y_m", T.y}, {"yaw_rad", T.theta}}},
+                     {"free_share", f.share(f.free)},
+                     {"occupied_share", f.share(f.occupied)},
+                     {"unknown_share", f.share(f.unknown)},
+                     {"free_area_m2", f.free_area_m2()},
+                     {"checksum", f.sum}};
+  return json.dump(2) + "\n";
+}
+
+std::string as_text(const MapFigures& f) {
+  const Pose2& T = f.geometry.T_map_grid;
+  return fmt::format("size      {} x {} cells of {} m: {:.2f} x {:.2f} m\n", f.geometry.width,
+                     f.geometry.height, f.geometry.resolution_m, f.width_m(), f.height_m()) +
+         fmt::format("origin    x {:.3f} m, y {:.3f} m, yaw {:.4f} rad (outer corner, lower left)\n", T.x,
+                     T.y, T.theta) +
+         fmt::format("free      {:.2f} % ({:.1f} m2)\n", 100 * f.share(f.free), f.free_area_m2()) +
+         fmt::format("occupied  {:.2f} %\nunknown   {:.2f} %\nchecksum  {}\n", 100 * f.share(f.occupied),
+                     100 * f.share(f.unknown), f.sum);
+}
+
+int run_info(const InfoArguments& arguments) {
+  Diagnostics diagnostics;
+  const auto grid = read_map(arguments.map, diagnostics);
+  warn_of(arguments.map, diagnostics);
+  const MapFigures figures(*grid);
+  std::cout << (arguments.json ? as_json(figures) : as_text(figures));
+  return kOk;
+}
+
+void add_build(CLI::App& parent, Runner& run) {
+  auto* command = parent.add_subcommand("build", "Occupancy map from a log and the path that the robot took");
+  auto a = std::make_shared<BuildArguments>();
+  GridBuilderOptions& grid = a->options.grid;
+  command->add_option("--log", a->log, "Log with laser scans (CARMEN, Wean, MRPT text, ROS 1 bag)")
+      ->required();
+  command->add_option("--trajectory", a->trajectory, "Poses in the map, in the log's clock")->required();
+  command->add_option("--out", a->out, "Map to write: NAME.yaml; its picture becomes NAME.png")->required();
+  command->add_option("--stream", a->stream, "Laser stream, where the log has several");
+  command->add_option("--mount", a->mount,
+                      "x,y,yaw (m, rad) of the laser on the robot, where the log tells none");
+  command->add_option("--trajectory-frame", a->frame, "Whose poses the trajectory holds: base or sensor")
+      ->capture_default_str();
+  command->add_option("--resolution", grid.resolution_m, "Cell size, m")->capture_default_str();
+  command->add_option("--max-range", grid.max_range_m, "Use beams up to here, m");
+  command
+      ->add_option("--occupied-share", grid.occupied_share,
+                   "Occupied if this share of the scans that see a cell end in it")
+      ->capture_default_str();
+  command->add_option("--min-observations", grid.min_observations, "Scans that must have seen a cell")
+      ->capture_default_str();
+  command
+      ->add_option("--max-gap-s", a->options.max_gap_s, "Do not interpolate between poses further apart, s")
+      ->capture_default_str();
+  command->callback([a, &run] {
+    // A cell that is not occupied is free: the two shares only differ where a program sets them apart.
+    a->options.grid.free_share = a->options.grid.occupied_share;
+    run = [a] { return run_build(*a); };
+  });
+}
+
+void add_info(CLI::App& parent, Runner& run) {
+  auto* command = parent.add_subcommand("info", "Size, place, shares and checksum of a map");
+  auto a = std::make_shared<InfoArguments>();
+  command->add_option("MAP", a->map, "map_server YAML file, or Wean map")->required();
+  command->add_flag("--json", a->json, "Print JSON (m, rad)");
+  command->callback([a, &run] { run = [a] { return run_info(*a); }; });
+}
+
+}  // namespace
+
+void add_map(CLI::App& program, Runner& run) {
+  auto* command = program.add_subcommand("map", "Make and inspect maps");
+  command->require_subcommand(1);
+  add_build(*command, run);
+  add_info(*command, run);
+}
+
+}  // namespace cairn::app
