@@ -36,6 +36,8 @@ int main(int argc, char** argv) {
   program.set_version_flag("--version", CAIRN_VERSION);
   program.require_subcommand(1);
   cairn::app::Runner run;
+  cairn::app::add_config(program, run);
+  cairn::app::add_localize(program, run);
   cairn::app::add_log(program, run);
   cairn::app::add_map(program, run);
   cairn::app::add_report(program, run);

@@ -1,0 +1,172 @@
+#include "apps/cairn/commands.hpp"
+#include "apps/cairn/interrupt.hpp"
+#include "apps/cairn/localize_metrics.hpp"
+#include "apps/cairn/localize_run.hpp"
+#include "apps/cairn/pose_option.hpp"
+#include "apps/cairn/progress.hpp"
+#include "apps/cairn/run_directory.hpp"
+#include "cairn/core/angle.hpp"
+#include "cairn/core/errors.hpp"
+#include "cairn/io/configuration.hpp"
+#include "cairn/io/input_file.hpp"
+#include "cairn/io/log_reader.hpp"
+#include "cairn/io/map_reader.hpp"
+#include "cairn/io/trajectory_reader.hpp"
+
+#include <chrono>
+#include <iostream>
+#include <memory>
+
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
+
+namespace cairn::app {
+namespace {
+
+struct Arguments {
+  std::string map;
+  std::string log;
+  std::string config;
+  std::vector<std::string> settings;
+  std::string init;
+  std::string init_error = "0,0,0";
+  bool global = false;
+  std::string reference;
+  std::uint64_t seed = 1;
+  int threads = 1;
+  std::string out;
+};
+
+// What the arguments name, read.
+struct Inputs {
+  Log log;
+  std::shared_ptr<const OccupancyGrid> map;
+  LocalizerOptions options;
+  std::optional<Trajectory> reference;
+  Diagnostics diagnostics;
+  double read_s = 0.0;
+};
+
+LocalizerOptions read_options(const Arguments& arguments, Diagnostics& diagnostics) {
+  LocalizerOptions options;
+  const VisitOptions visit = [&](OptionVisitor& visitor) { options.visit(visitor); };
+  if (!arguments.config.empty()) {
+    read_configuration(*open_input(arguments.config), arguments.config, visit, diagnostics);
+  }
+  apply_settings(arguments.settings, visit);
+  options.validate();
+  return options;
+}
+
+std::vector<Time> scan_stamps(const Log& log) {
+  std::vector<Time> stamps;
+  for (const Event& event : log.events) {
+    if (log.streams[event.stream].kind == StreamKind::kLaserScan) stamps.push_back(event.stamp);
+  }
+  return stamps;
+}
+
+Inputs read_inputs(const Arguments& arguments) {
+  const auto started = std::chrono::steady_clock::now();
+  Inputs inputs;
+  inputs.options = read_options(arguments, inputs.diagnostics);
+  inputs.map = read_map(arguments.map, inputs.diagnostics);
+  inputs.log = read_log(arguments.log);
+  sort_by_stamp(inputs.log);
+  if (!arguments.reference.empty()) {
+    inputs.reference =
+        read_trajectory(arguments.reference, {.frame_stamps = scan_stamps(inputs.log)}, inputs.diagnostics);
+  }
+  inputs.read_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  return inputs;
+}
+
+// The reference at the first scan, or its first pose where it begins after that.
+Pose2 reference_start(const Inputs& inputs) {
+  if (!inputs.reference || inputs.reference->empty()) {
+    throw ConfigurationError("--init reference", "there is no reference", "give one with --reference");
+  }
+  const std::vector<Time> stamps = scan_stamps(inputs.log);
+  if (!stamps.empty()) {
+    if (const auto pose = pose_at(*inputs.reference, stamps.front())) return *pose;
+  }
+  return inputs.reference->front().pose;
+}
+
+Start choose_start(const Arguments& arguments, const Inputs& inputs) {
+  if (arguments.init.empty()) return {};
+  const Pose2 pose =
+      arguments.init == "reference" ? reference_start(inputs) : parse_pose("--init", arguments.init);
+  const Pose2 error = parse_pose("--init-error", arguments.init_error);
+  return {Pose2{pose.x + error.x, pose.y + error.y, normalize_angle(pose.theta + error.theta)}};
+}
+
+RunData to_run_data(Inputs& inputs, const LocalizeResult& result, const nlohmann::json& metrics) {
+  RunData run;
+  for (const Estimate& e : result.estimates) run.trajectory.push_back({e.stamp, e.T_map_base});
+  sort_by_stamp(run.trajectory);
+  run.estimates = result.estimates;
+  run.metrics = metrics;
+  run.configuration = write_configuration([&](OptionVisitor& v) { inputs.options.visit(v); });
+  run.map = inputs.map;
+  run.particles = result.snapshots;
+  run.reference = inputs.reference;
+  return run;
+}
+
+LocalizeResult run_with_progress(const Arguments& arguments, const Inputs& inputs) {
+  Progress progress("localizing", static_cast<std::int64_t>(inputs.log.events.size()));
+  const InterruptGuard interrupt;
+  return localize({.log = &inputs.log,
+                   .map = inputs.map,
+                   .options = inputs.options,
+                   .start = choose_start(arguments, inputs),
+                   .seed = arguments.seed,
+                   .threads = arguments.threads,
+                   .go_on = [&](std::int64_t done) {
+                     progress.update(done);
+                     return !interrupt.requested();
+                   }});
+}
+
+int run_localize(const Arguments& arguments) {
+  check_run_directory(arguments.out);
+  Inputs inputs = read_inputs(arguments);
+  const LocalizeResult result = run_with_progress(arguments, inputs);
+  const RunSummary summary =
+      summarize_run({.log_path = arguments.log,
+                     .map_path = arguments.map,
+                     .seed = arguments.seed,
+                     .threads = arguments.threads,
+                     .read_s = inputs.read_s},
+                    inputs.log, *inputs.map, inputs.options, inputs.reference, inputs.diagnostics, result);
+  write_run(arguments.out, to_run_data(inputs, result, summary.metrics));
+  std::cout << summary.text << "written to " << arguments.out << "\n";
+  if (result.interrupted) spdlog::warn("interrupted: this is what was computed until then");
+  if (summary.lost) spdlog::error("the run ended lost: {}", summary.reason);
+  return summary.lost ? kLost : kOk;
+}
+
+}  // namespace
+
+void add_localize(CLI::App& program, Runner& run) {
+  auto* command = program.add_subcommand("localize", "Localize a recorded robot in a map");
+  auto a = std::make_shared<Arguments>();
+  command->add_option("--map", a->map, "Map (map_server YAML, Wean)")->required();
+  command->add_option("--log", a->log, "Recording (CARMEN, ROS 1 bag, Wean, MRPT text)")->required();
+  command->add_option("--config", a->config, "Configuration (YAML; see `cairn config`; nav2 AMCL files too)");
+  command->add_option("--set", a->settings, "key=value, over the configuration; may be repeated");
+  auto* init = command->add_option(
+      "--init", a->init, "Start pose x,y,yaw in the map (m, rad), or `reference`: where that begins");
+  command->add_option("--init-error", a->init_error, "x,y,yaw added to the start pose (m, rad)")->needs(init);
+  command->add_flag("--global", a->global, "Start anywhere free (the default)")->excludes(init);
+  command->add_option("--reference", a->reference,
+                      "Trajectory taken as true: adds the accuracy to the results");
+  command->add_option("--seed", a->seed, "Of all random numbers")->capture_default_str();
+  command->add_option("--threads", a->threads, "Changes the time taken, never the results")
+      ->capture_default_str();
+  command->add_option("--out", a->out, "Folder for the results")->required();
+  command->callback([a, &run] { run = [a] { return run_localize(*a); }; });
+}
+
+}  // namespace cairn::app

@@ -1,0 +1,106 @@
+#include "apps/cairn/localize_run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <spdlog/fmt/fmt.h>
+
+namespace cairn::app {
+namespace {
+
+constexpr std::size_t kSnapshots = 200;
+constexpr std::size_t kParticlesPerSnapshot = 200;
+
+// The belief counts as lost at the end of a run when, over the last scans, the map explains too few beams, or
+// the particles are too wide or too divided to be of use.
+constexpr std::size_t kLastScans = 20;
+constexpr double kLeastQuality = 0.5;
+constexpr double kLargestSpread_m = 1.0;
+constexpr double kLeastWeight = 0.5;
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+double spread_m(const Estimate& estimate) {
+  return std::sqrt(estimate.covariance(0, 0) + estimate.covariance(1, 1));
+}
+
+// Takes snapshots that divide the time span of the log evenly.
+class SnapshotTaker {
+ public:
+  SnapshotTaker(const Log& log, std::vector<ParticleSnapshot>& out) : out_(out) {
+    if (log.events.empty()) return;
+    next_ = log.events.front().stamp;
+    interval_ = (log.events.back().stamp - next_) / kSnapshots;
+  }
+
+  void look(const Localizer& localizer) {
+    const auto estimate = localizer.estimate();
+    if (!estimate || estimate->stamp < next_) return;
+    out_.push_back(localizer.snapshot(kParticlesPerSnapshot));
+    while (next_ <= estimate->stamp && interval_.count() > 0) next_ += interval_;
+  }
+
+ private:
+  std::vector<ParticleSnapshot>& out_;
+  Time next_;
+  Duration interval_{};
+};
+
+}  // namespace
+
+LocalizeResult localize(const LocalizeRequest& request) {
+  LocalizeResult result;
+  const auto prepare_started = Clock::now();
+  const auto executor = std::make_shared<const Executor>(request.threads);
+  MonteCarloLocalizer localizer(request.options, request.log->streams, *request.map, request.start,
+                                request.seed, executor);
+  localizer.set_observer([&](const Estimate& estimate) { result.estimates.push_back(estimate); });
+  result.prepare_s = seconds_since(prepare_started);
+
+  const auto run_started = Clock::now();
+  SnapshotTaker snapshots(*request.log, result.snapshots);
+  std::int64_t done = 0;
+  for (const Event& event : request.log->events) {
+    localizer.process(event);
+    snapshots.look(localizer);
+    if (!request.go_on(++done)) {
+      result.interrupted = true;
+      break;
+    }
+  }
+  localizer.finish();
+  result.run_s = seconds_since(run_started);
+  result.outcomes = localizer.outcomes();
+  result.diagnostics = localizer.diagnostics();
+  result.updates = localizer.updates();
+  return result;
+}
+
+EndVerdict judge_end(const std::vector<Estimate>& estimates) {
+  if (estimates.empty()) return {true, "no scan could be used"};
+  const std::size_t count = std::min(kLastScans, estimates.size());
+  double quality = 0.0;
+  for (std::size_t i = estimates.size() - count; i < estimates.size(); ++i) quality += estimates[i].quality;
+  quality /= static_cast<double>(count);
+  const Estimate& last = estimates.back();
+  if (quality < kLeastQuality) {
+    return {true,
+            fmt::format("the map explains only {:.0f} % of the beams of the last {} scans: the robot is "
+                        "elsewhere, or map and log do not belong together",
+                        100 * quality, count)};
+  }
+  if (spread_m(last) > kLargestSpread_m) {
+    return {true, fmt::format("the position is known to {:.1f} m only", spread_m(last))};
+  }
+  if (last.weight < kLeastWeight) {
+    return {true, fmt::format("{} places fit about equally well", last.hypotheses)};
+  }
+  return {false,
+          fmt::format("the map explains {:.0f} % of the beams of the last {} scans", 100 * quality, count)};
+}
+
+}  // namespace cairn::app

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "cairn/io/log.hpp"
+#include "cairn/localization/estimate.hpp"
+#include "cairn/localization/localizer_options.hpp"
+#include "cairn/localization/monte_carlo_localizer.hpp"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace cairn::app {
+
+/// One run of a localizer over a log.
+struct LocalizeRequest {
+  const Log* log = nullptr;  ///< events in the order of their stamps
+  std::shared_ptr<const OccupancyGrid> map;
+  LocalizerOptions options;
+  Start start;
+  std::uint64_t seed = 1;
+  int threads = 1;
+  /// Asked after every event with the number of events done; false ends the run there.
+  std::function<bool(std::int64_t)> go_on = [](std::int64_t) { return true; };
+};
+
+struct LocalizeResult {
+  std::vector<Estimate> estimates;          ///< one per scan that was used or not needed
+  std::vector<ParticleSnapshot> snapshots;  ///< evenly spread over the run
+  std::vector<OutcomeCounts> outcomes;      ///< per stream of the log
+  Diagnostics diagnostics;
+  std::int64_t updates = 0;
+  bool interrupted = false;
+  double prepare_s = 0.0;  ///< wall time until the first event
+  double run_s = 0.0;      ///< wall time of the events
+};
+
+/// @throws ConfigurationError as MonteCarloLocalizer
+LocalizeResult localize(const LocalizeRequest& request);
+
+/// How the belief looks at the end of a run, without knowing the truth.
+struct EndVerdict {
+  bool lost = true;
+  std::string reason;  ///< one sentence
+};
+EndVerdict judge_end(const std::vector<Estimate>& estimates);
+
+}  // namespace cairn::app
