@@ -9,7 +9,7 @@ namespace {
 
 std::string content() {
   std::string text;
-  for (int i = 0; i < 100'000; ++i) text += std::to_string(i * i % 1000);
+  for (int i = 0; i < 100'000; ++i) text += std::to_string(i * 7919 % 1000);
   return text;
 }
 
