@@ -4,7 +4,6 @@
 #include "cairn/io/carmen_log.hpp"
 #include "cairn/io/input_file.hpp"
 #include "cairn/io/mrpt_text_log.hpp"
-#include "cairn/io/plausible_units.hpp"
 #include "cairn/io/rosbag1.hpp"
 #include "cairn/io/text_fields.hpp"
 #include "cairn/io/wean_log.hpp"
@@ -71,17 +70,11 @@ std::string remedy_for(std::string_view head) {
   return "give a CARMEN, Wean Hall or MRPT text log or a ROS 1 bag";
 }
 
-Log read_bag(std::istream& input, const std::string& name) {
-  Log log = read_rosbag1(input, name);
-  warn_of_implausible_units(log, name);
-  return log;
-}
-
 }  // namespace
 
 Log read_log(std::istream& input, const std::string& name) {
   const std::string head = head_of(input);
-  if (is_rosbag1(head)) return read_bag(input, name);
+  if (is_rosbag1(head)) return read_rosbag1(input, name);
   if (const ReadLog reader = reader_of_text(head, name)) return reader(input, name);
   throw InputError(name, "is no log of a known format, it begins with \"" + shown(head) + "\"",
                    remedy_for(head));

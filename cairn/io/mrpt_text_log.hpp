@@ -10,15 +10,14 @@ namespace cairn {
 /// Reads the text form of an MRPT rawlog with wheel odometry, one planar laser and radio beacons: metres,
 /// radians, seconds since 1970.
 ///
-/// | line | says | becomes |
-/// |---|---|---|
-/// | `FRAME k` | the lines that follow belong to frame k | |
-/// | `ODO dx dy dtheta` | motion from frame k to frame k+1, in the robot's frame | |
-/// | `LASER t n range_max aperture x y z r1..rn` | beams from the right to the left; where the scanner is
-/// mounted | odometry "odom": pose of frame k, from (0, 0, 0) on; then scan "laser" | | `BEACON id range` | |
-/// counted as "unsupported message" |
+/// - `FRAME k`: the lines that follow belong to frame k.
+/// - `ODO dx dy dtheta`: motion from frame k to frame k+1, in the robot's frame at k.
+/// - `LASER t n range_max aperture x y z r1..rn`: scan "laser", beams from the right to the left, mounted at
+///   (x, y, 0); just before it, with the same stamp, the pose of frame k as odometry "odom", from (0, 0, 0)
+///   on.
+/// - `BEACON id range`: counted as "unsupported message".
 ///
-/// The odometry of a frame has the stamp of its LASER line. A range of `range_max` or more is no return.
+/// A range of `range_max` or more is no return.
 /// Beams stand aperture/(n-1) apart, starting at -aperture/2. What is done about malformed lines: see
 /// read_text_log in text_log.hpp. A malformed ODO line loses its motion.
 /// @param name  of the file, for messages

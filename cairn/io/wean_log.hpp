@@ -10,11 +10,9 @@ namespace cairn {
 
 /// Reads a log of the Wean Hall data set: one message a line, centimetres, radians, seconds since the start.
 ///
-/// | message | becomes |
-/// |---|---|
-/// | `O x y theta t` | odometry stream "odom" |
-/// | `L x y theta xl yl thetal r1..r180 t`: pose of the robot, pose of the laser, ranges | scans "laser", and
-/// just before each its robot pose with the same stamp as odometry "laser_odom" |
+/// - `O x y theta t`: odometry stream "odom".
+/// - `L x y theta xl yl thetal r1..r180 t` (pose of the robot, pose of the laser, ranges): scans "laser", and
+///   just before each scan the robot's pose, with the same stamp, as odometry "laser_odom".
 ///
 /// The log tells no angles but "180 readings over 180 degrees from the right to the left". They are read as 1
 /// degree apart, from -90 to +89 degrees: the SICK LMS measures at whole degrees and gives 181 beams, of

@@ -1,17 +1,7 @@
-#include "cairn/core/errors.hpp"
 #include "cairn/io/wean_log.hpp"
+#include "fuzz_target.hpp"
 
-#include <cstddef>
-#include <cstdint>
-#include <sstream>
-#include <string>
-
-// Whatever the bytes are: a log, or an InputError.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  std::istringstream input(std::string(reinterpret_cast<const char*>(data), size));
-  try {
-    cairn::read_wean_log(input, "fuzz");
-  } catch (const cairn::InputError&) {
-  }
-  return 0;
+  return cairn::fuzz::read_stream(
+      data, size, [](std::istream& input) { cairn::fuzz::check(cairn::read_wean_log(input, "fuzz")); });
 }
