@@ -78,7 +78,7 @@ export function drawCloud(context, camera, run, now) {
   const ticks = camera.scale > 60;
   context.save();
   context.fillStyle = context.strokeStyle = color('particles');
-  context.globalAlpha = 0.7;
+  context.globalAlpha = 0.55;
   context.beginPath();
   for (let i = 0; i < cloud.poses.length; i += 3) {
     const [x, y] = [cloud.poses[i] / 1000, cloud.poses[i + 1] / 1000];

@@ -5,6 +5,9 @@ import { color, onThemeChange } from './theme.js';
 import { drawCloud, drawEllipse, drawEstimate, drawReference, drawRobot, drawScaleBar } from './map_layers.js';
 import { poseAt } from './series.js';
 
+// Pixels per metre from which on the robot is shown from near.
+const kNear = 80;
+
 export class MapView {
   /** @param scene {run, image, layers, scale} shared by all views, see map_card.js */
   constructor(scene, timeline, label, onResize) {
@@ -50,11 +53,23 @@ export class MapView {
     if (layers.map) image.draw(context, camera);
     if (layers.reference) drawReference(context, camera, run);
     if (layers.estimate) drawEstimate(context, camera, run, now, scale());
+    // From near the belief is what matters, from afar it would hide the robot.
+    const order = [() => this.drawRobots(context), () => this.drawBelief(context)];
+    if (camera.scale < kNear) order.reverse();
+    for (const layer of order) layer();
+    drawScaleBar(context, camera);
+  }
+
+  drawRobots(context) {
+    const { scene: { run, layers }, camera, timeline: { now } } = this;
     if (layers.reference && run.reference) drawRobot(context, camera, poseAt(run.reference, now), color('reference'));
     if (layers.estimate) drawRobot(context, camera, poseAt(run.path, now), color('estimate'));
+  }
+
+  drawBelief(context) {
+    const { scene: { run, layers }, camera, timeline: { now } } = this;
     if (layers.particles) drawCloud(context, camera, run, now);
     if (layers.ellipse) drawEllipse(context, camera, run, now);
-    drawScaleBar(context, camera);
   }
 }
 
