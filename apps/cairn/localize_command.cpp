@@ -4,6 +4,7 @@
 #include "apps/cairn/localize_run.hpp"
 #include "apps/cairn/pose_option.hpp"
 #include "apps/cairn/progress.hpp"
+#include "apps/cairn/report_command.hpp"
 #include "apps/cairn/run_directory.hpp"
 #include "cairn/core/angle.hpp"
 #include "cairn/core/errors.hpp"
@@ -141,6 +142,8 @@ int run_localize(const Arguments& arguments) {
                      .read_s = inputs.read_s},
                     inputs.log, *inputs.map, inputs.options, inputs.reference, inputs.diagnostics, result);
   write_run(arguments.out, to_run_data(inputs, result, summary.metrics));
+  const std::string no_report = write_report(arguments.out);
+  if (!no_report.empty()) spdlog::warn("no report.html: {}", no_report);
   std::cout << summary.text << "written to " << arguments.out << "\n";
   if (result.interrupted) spdlog::warn("interrupted: this is what was computed until then");
   if (summary.lost) spdlog::error("the run ended lost: {}", summary.reason);

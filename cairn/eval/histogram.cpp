@@ -20,11 +20,20 @@ double round_up(double width) {
 }  // namespace
 
 Histogram make_histogram(std::span<const double> values) {
-  const double max = values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
-  if (!(max > 0.0)) return {1e-3, {static_cast<std::int64_t>(values.size())}};
-  Histogram histogram{round_up(max / kMaxBins), {}};
-  histogram.counts.resize(static_cast<std::size_t>(max / histogram.width) + 1);
-  for (const double value : values) ++histogram.counts[static_cast<std::size_t>(value / histogram.width)];
+  std::vector<double> sorted(values.begin(), values.end());
+  std::sort(sorted.begin(), sorted.end());
+  if (sorted.empty() || !(sorted.back() > 0.0)) return {1e-3, {static_cast<std::int64_t>(values.size())}, 0};
+  const double p99 = sorted[(sorted.size() * 99 + 99) / 100 - 1];
+  const double reach = p99 > 0.0 ? p99 : sorted.back();
+  Histogram histogram{round_up(reach / kMaxBins), {}, 0};
+  histogram.counts.resize(static_cast<std::size_t>(reach / histogram.width) + 1);
+  for (const double value : values) {
+    const double bin = value / histogram.width;
+    if (bin < static_cast<double>(histogram.counts.size()))
+      ++histogram.counts[static_cast<std::size_t>(bin)];
+    else
+      ++histogram.beyond;
+  }
   return histogram;
 }
 

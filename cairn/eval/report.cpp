@@ -159,9 +159,10 @@ void RunWriter::write_errors(json& out) const {
     std::vector<double> values;
     for (const PoseError& error : ate.errors) values.push_back(value(error));
     const Histogram made = make_histogram(values);
-    return json{{"width", made.width}, {"counts", made.counts}};
+    return json{{"width", made.width}, {"counts", made.counts}, {"beyond", made.beyond}};
   };
   out["errors"] = error_path(pairs, ate);
+  out["errors"]["p95_m"] = significant(ate.position_m.p95);
   out["series"]["position_error_m"] = series(ate.errors, position);
   out["series"]["heading_error_rad"] = series(ate.errors, heading);
   out["histograms"] = {{"position", histogram(position)}, {"heading", histogram(heading)}};

@@ -28,12 +28,13 @@ function drawVerdict(metrics) {
   if (metrics.verdict_reason) byId('verdict').append(el('p', {}, metrics.verdict_reason));
 }
 
-function usedShare(outcomes) {
+// A stream that the configuration does not use is no loss: the table of outcomes shows it, this figure leaves it out.
+function droppedShare(outcomes) {
   const streams = Object.values(outcomes ?? {});
   const sum = (pick) => streams.reduce((total, stream) =>
     total + Object.entries(stream).reduce((n, [name, value]) => n + (pick(name) ? value : 0), 0), 0);
-  const all = sum(() => true);
-  return { all, dropped: sum((name) => name.startsWith('dropped')) };
+  const all = sum((name) => name !== 'dropped_unbound_stream');
+  return { all, dropped: sum((name) => name.startsWith('dropped') && name !== 'dropped_unbound_stream') };
 }
 
 function particleRange(run) {
@@ -45,7 +46,7 @@ function particleRange(run) {
 
 export function drawTiles(run, parent) {
   const { accuracy, timings, log, updates, outcomes, peak_memory_bytes: memory } = run.metrics;
-  const messages = usedShare(outcomes);
+  const messages = droppedShare(outcomes);
   const tile = (name, value, note) => value !== undefined && value !== '–' && parent.append(
     el('div', { class: 'tile' }, el('div', { class: 'name' }, name), el('div', { class: 'value' }, value),
       el('div', { class: 'note' }, note ?? '')));
@@ -59,7 +60,7 @@ export function drawTiles(run, parent) {
   tile('Real-time factor', timings?.realtime_factor === undefined ? undefined : `${figure(timings.realtime_factor)}×`,
     timings?.update_mean_ms === undefined ? '' : `${figure(timings.update_mean_ms)} ms an update`);
   if (messages.all > 0) {
-    tile('Messages dropped', percent(messages.dropped / messages.all), `of ${count(messages.all)} messages`);
+    tile('Messages dropped', percent(messages.dropped / messages.all), `of ${count(messages.all)} in use`);
   }
   tile('Peak memory', bytes(memory), '');
 }

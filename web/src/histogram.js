@@ -4,27 +4,32 @@ import { card, el, tip } from './dom.js';
 import { count, figure, kDegrees, lengthUnit } from './format.js';
 import { color } from './theme.js';
 
-function histogram(parent, title, { width, counts }, unit) {
+function histogram(parent, title, { width, counts: within, beyond }, unit) {
+  const counts = beyond > 0 ? [...within, beyond] : within;
   const step = width * unit.factor;
   const total = counts.reduce((a, b) => a + b, 0);
-  const range = (i) => `${figure(i * step)} – ${figure((i + 1) * step)} ${unit.name}`;
+  const isBeyond = (i) => i >= within.length;
+  const range = (i) => isBeyond(i) ? `≥ ${figure(i * step)} ${unit.name}` : `${figure(i * step)} – ${figure((i + 1) * step)} ${unit.name}`;
   const { element } = card(title);
   parent.append(element);
   addChart(element, {
     label: title,
     options: () => ({
       grid: grid(),
-      xAxis: axis(`error [${unit.name}]`, { min: 0, max: counts.length * step, nameGap: 26, splitLine: { show: false } }),
+      xAxis: axis(`error [${unit.name}]${beyond > 0 ? `, the last bar: ${figure(within.length * step)} and more` : ''}`, { min: 0, max: counts.length * step, nameGap: 26, splitLine: { show: false } }),
       yAxis: yAxis('share of the poses [%]'),
       tooltip: tooltip({
         formatter: ([bar]) => tip(range(bar.dataIndex), [
-          ['poses', count(counts[bar.dataIndex]), color('estimate')],
+          ['poses', count(counts[bar.dataIndex]), color(isBeyond(bar.dataIndex) ? 'error' : 'estimate')],
           ['share', `${figure(bar.value[1])} %`],
         ]),
       }),
       series: [{
         type: 'bar', barWidth: '92%', itemStyle: { color: color('estimate'), borderRadius: [2, 2, 0, 0] },
-        data: counts.map((n, i) => [(i + 0.5) * step, 100 * n / total]),
+        data: counts.map((n, i) => ({
+          value: [(i + 0.5) * step, 100 * n / total],
+          itemStyle: isBeyond(i) ? { color: color('error') } : undefined,
+        })),
       }],
     }),
   });

@@ -114,7 +114,7 @@ function drawHypotheses(run, timeline, parent) {
   timeChart(parent, timeline, 'Hypotheses', [
     { name: 'hypotheses', series: hypotheses, factor: 1, unit: '', color: 'particles', step: true },
     { name: 'weight of the heaviest (right)', series: weight, factor: 100, unit: '%', color: 'reference', axis: 1 },
-  ], [() => yAxis('hypotheses [count]', { minInterval: 1 }),
+  ], [() => yAxis('hypotheses [count]', { minInterval: 1, max: ({ max }) => Math.max(3, max) }),
     () => yAxis('weight [%]', { max: 100, interval: 25, nameGap: 40, splitLine: { show: false } })]);
 }
 
