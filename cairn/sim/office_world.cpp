@@ -110,9 +110,9 @@ std::vector<Point2> make_tour(const std::vector<Room>& rooms, const OfficeOption
   for (const Room& room : rooms) {
     if (room.north) visit(room, o, tour);
   }
-  for (auto room = rooms.rbegin(); room != rooms.rend(); ++room) {
-    if (!room->north) visit(*room, o, tour);
-  }
+  std::for_each(rooms.rbegin(), rooms.rend(), [&](const Room& room) {
+    if (!room.north) visit(room, o, tour);
+  });
   tour.push_back({kStartX_m, 0.5 * o.corridor_width_m});
   return tour;
 }
