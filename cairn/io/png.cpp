@@ -70,9 +70,30 @@ bool read_header(PngFile& file) {
   return true;
 }
 
-bool read_pixels(PngFile& file, png_bytepp rows) {
+// Channels are grey, grey + opacity, red green blue, or red green blue + opacity.
+struct GrayRows {
+  std::size_t channels;
+  std::size_t width;
+  std::uint8_t* gray;
+  std::uint8_t* opacity;  // null for none
+
+  void add(const std::uint8_t* samples) {
+    for (std::size_t i = 0; i < width; ++i, samples += channels) {
+      *gray++ = channels < 3 ? samples[0]
+                             : static_cast<std::uint8_t>((samples[0] + samples[1] + samples[2] + 1) / 3);
+      if (opacity) *opacity++ = samples[channels - 1];
+    }
+  }
+};
+
+// An interlaced picture must be unpacked whole (`rows` has all of them); any other goes through one row.
+bool read_pixels(PngFile& file, png_bytepp rows, std::size_t height, bool interlaced, GrayRows* out) {
   if (setjmp(png_jmpbuf(file.png))) return false;
-  png_read_image(file.png, rows);
+  if (interlaced) png_read_image(file.png, rows);
+  for (std::size_t row = 0; row < height; ++row) {
+    if (!interlaced) png_read_row(file.png, rows[0], nullptr);
+    out->add(rows[interlaced ? row : 0]);
+  }
   png_read_end(file.png, nullptr);
   return true;
 }
@@ -95,21 +116,6 @@ std::vector<png_bytep> row_pointers(std::uint8_t* pixels, std::size_t row_bytes,
   return rows;
 }
 
-// Channels are grey, grey + opacity, red green blue, or red green blue + opacity.
-GrayImage to_gray(const std::vector<std::uint8_t>& samples, std::size_t channels, int width, int height) {
-  GrayImage image{width, height, {}, {}};
-  const std::size_t colours = channels >= 3 ? 3 : 1;
-  image.gray.reserve(image.size());
-  for (std::size_t i = 0; i < samples.size(); i += channels) {
-    int sum = static_cast<int>(colours / 2);  // to the nearest
-    for (std::size_t c = 0; c < colours; ++c) sum += samples[i + c];
-    image.gray.push_back(static_cast<std::uint8_t>(sum / static_cast<int>(colours)));
-  }
-  if (channels == colours) return image;
-  for (std::size_t i = colours; i < samples.size(); i += channels) image.opacity.push_back(samples[i]);
-  return image;
-}
-
 [[noreturn]] void refuse(const std::string& name, const std::string& what) {
   throw InputError(name, what, "check the picture with another program");
 }
@@ -130,11 +136,18 @@ GrayImage read_png(const std::string& bytes, const std::string& name) {
     refuse(name, "announces " + std::to_string(width) + " x " + std::to_string(height) +
                      " pixels, more than it can hold");
   }
-  std::vector<std::uint8_t> samples(row_bytes * height);
-  auto rows = row_pointers(samples.data(), row_bytes, static_cast<int>(height));
-  if (!read_pixels(file, rows.data())) refuse(name, std::string("is a damaged PNG: ") + file.message);
-  return to_gray(samples, png_get_channels(file.png, file.info), static_cast<int>(width),
-                 static_cast<int>(height));
+  GrayImage image{static_cast<int>(width), static_cast<int>(height), {}, {}};
+  const std::size_t channels = png_get_channels(file.png, file.info);
+  image.gray.resize(image.size());
+  if (channels % 2 == 0) image.opacity.resize(image.size());
+  GrayRows out{channels, width, image.gray.data(), image.opacity.empty() ? nullptr : image.opacity.data()};
+  const bool interlaced = png_get_interlace_type(file.png, file.info) != PNG_INTERLACE_NONE;
+  std::vector<std::uint8_t> samples(row_bytes * (interlaced ? height : 1));
+  auto rows = row_pointers(samples.data(), row_bytes, interlaced ? image.height : 1);
+  if (!read_pixels(file, rows.data(), height, interlaced, &out)) {
+    refuse(name, std::string("is a damaged PNG: ") + file.message);
+  }
+  return image;
 }
 
 void write_png(std::ostream& output, const GrayImage& image) {

@@ -42,6 +42,9 @@ const std::string kRgba = unhex(
 const std::string kPalette = unhex(
     "89504e470d0a1a0a0000000d4948445200000002000000010803000000c3fc8fb800000006504c54450a141e5a5a5a8b"
     "9b2d150000000b4944415478da63606400000005000242c2449f0000000049454e44ae426082");
+const std::string kInterlaced = unhex(
+    "89504e470d0a1a0a0000000d4948445200000002000000010800000001a64e10c00000000c4944415478da63e0623801"
+    "0000ea00d3fc5dd6ec0000000049454e44ae426082");
 const std::string kHuge = unhex(
     "89504e470d0a1a0a0000000d49484452200000002000000008000000002f6fea980000000b4944415478da63e03a0100"
     "00df00d3d885d2ae0000000049454e44ae426082");
@@ -59,6 +62,7 @@ TEST(Png, ReadsEveryKind) {
   EXPECT_THAT(read_png(kRgb, "f").gray, ElementsAre(20, 255));
   EXPECT_THAT(read_png(kRgba, "f").gray, ElementsAre(20, 2));
   EXPECT_THAT(read_png(kPalette, "f").gray, ElementsAre(90, 20));
+  EXPECT_THAT(read_png(kInterlaced, "f").gray, ElementsAre(10, 200));
 }
 
 TEST(Png, KeepsOpacityWhereThereIsSome) {

@@ -1,0 +1,9 @@
+#include "cairn/io/pgm.hpp"
+#include "fuzz_target.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return cairn::fuzz::read_stream(data, size, [](std::istream& input) {
+    const cairn::GrayImage image = cairn::read_pgm(cairn::read_rest(input), "fuzz");
+    if (image.gray.size() != image.size()) throw std::logic_error("pixels and size do not fit");
+  });
+}
