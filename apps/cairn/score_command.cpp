@@ -1,7 +1,9 @@
 #include "apps/cairn/commands.hpp"
+#include "apps/cairn/map_building.hpp"
 #include "apps/cairn/pose_option.hpp"
 #include "cairn/core/angle.hpp"
 #include "cairn/eval/score.hpp"
+#include "cairn/io/log_reader.hpp"
 #include "cairn/io/relations.hpp"
 #include "cairn/io/trajectory_reader.hpp"
 
@@ -20,13 +22,22 @@ struct Arguments {
   std::string align = "none";
   std::string offset = "0,0,0";
   std::string relations;
+  std::string log;
+  std::string stream;
   double rpe_delta_m = 1.0;
   bool json = false;
 };
 
-Trajectory read_and_warn(const std::string& path) {
+/// Stamps of the log's scans: what a path that numbers its poses counts.
+TrajectoryOptions trajectory_options(const Arguments& arguments) {
+  if (arguments.log.empty()) return {};
+  const Log log = read_log(arguments.log);
+  return {.frame_stamps = stamps_of(log, laser_stream(log, arguments.stream))};
+}
+
+Trajectory read_and_warn(const std::string& path, const TrajectoryOptions& options) {
   Diagnostics diagnostics;
-  Trajectory trajectory = read_trajectory(path, {}, diagnostics);
+  Trajectory trajectory = read_trajectory(path, options, diagnostics);
   for (const auto& [kind, count] : diagnostics.counts()) spdlog::warn("{}: {} ({} times)", path, kind, count);
   return trajectory;
 }
@@ -64,8 +75,9 @@ int run_score(const Arguments& arguments) {
   options.T_estimate_reference = parse_pose("--offset", arguments.offset);
   options.rpe_delta_m = arguments.rpe_delta_m;
   if (!arguments.relations.empty()) options.relations = read_relations(arguments.relations);
-  const Trajectory reference = read_and_warn(arguments.reference);
-  const Trajectory estimate = read_and_warn(arguments.estimate);
+  const TrajectoryOptions reading = trajectory_options(arguments);
+  const Trajectory reference = read_and_warn(arguments.reference, reading);
+  const Trajectory estimate = read_and_warn(arguments.estimate, reading);
   const Score result = score(reference, estimate, options);
   std::cout << (arguments.json ? to_json(result) + "\n" : as_text(result));
   return kOk;
@@ -91,6 +103,8 @@ void add_score(CLI::App& program, Runner& run) {
   command
       ->add_option("--rpe-delta-m", a->rpe_delta_m, "Without --relations: path length to judge motion over")
       ->capture_default_str();
+  command->add_option("--log", a->log, "Log whose scans stamp a path that numbers its poses (MRPT)");
+  command->add_option("--stream", a->stream, "Laser stream of --log, where it has several");
   command->add_flag("--json", a->json, "Print the figures as JSON (m, rad)");
   command->callback([a, &run] { run = [a] { return run_score(*a); }; });
 }

@@ -61,6 +61,16 @@ TEST_F(ScoreCommand, OffsetAndJson) {
   EXPECT_NEAR(json["position"]["max_m"].get<double>(), 0.0, 1e-12);
 }
 
+TEST_F(ScoreCommand, ALogStampsAPathThatNumbersItsPoses) {
+  const std::string numbered = write("numbered", "0 0 0 0\n1 1 0 0\n");
+  const std::string estimate = write("est", "1.5 0 0.02 0\n2.5 1 0.02 0\n");
+  std::string log;
+  for (const char* t : {"0.5", "1.5", "2.5"}) log += std::string("FLASER 2 1 1 0 0 0 0 0 0 ") + t + " h 0\n";
+  const std::string files = "--reference " + numbered + " --estimate " + estimate;
+  EXPECT_THROW(output_of(files), InputError);
+  EXPECT_THAT(output_of(files + " --log " + write("a.log", log)), HasSubstr("mean 2.00 +- 0.00 cm"));
+}
+
 TEST_F(ScoreCommand, BadInputIsAnError) {
   const std::string reference = write("ref", "0.5 0.08 0 0\n1.5 1.08 0 zero\n");
   EXPECT_THROW(output_of("--reference " + reference + " --estimate " + reference), InputError);
