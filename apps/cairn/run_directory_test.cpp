@@ -177,6 +177,13 @@ TEST(RunTables, AreReadWholeOrRefusedWhereverTheyAreCut) {
   }
 }
 
+TEST(RunTables, KeepLargeRoundCounts) {
+  RunData run = small_run();
+  run.estimates.front().particles = 100000;
+  const auto back = parse_estimates(to_csv(run.estimates), "e");
+  EXPECT_EQ(back.front().particles, 100000);
+}
+
 TEST(RunTables, SayWhereTheDamageIs) {
   const std::string header = std::string(kParticleHeader) + "\n";
   const auto error = [&](const std::string& rows) -> std::string {

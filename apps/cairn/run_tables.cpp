@@ -15,8 +15,13 @@ namespace {
 constexpr const char* kRunAgain = "write the run again with `cairn localize --out`";
 
 void append(std::string& text, double value) {
+  constexpr double kExact = 1e15;
   char digits[32];
-  text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+  // The shortest form of a whole number may have an exponent (1e+05), which a count must not.
+  const bool whole = std::abs(value) < kExact && value == std::trunc(value);
+  const auto end = whole ? std::to_chars(digits, digits + sizeof digits, static_cast<long long>(value))
+                         : std::to_chars(digits, digits + sizeof digits, value);
+  text.append(digits, end.ptr);
 }
 
 void append_row(std::string& text, Time stamp, std::initializer_list<double> values) {
