@@ -1,5 +1,6 @@
 #include "cairn/eval/report.hpp"
 
+#include "cairn/core/angle.hpp"
 #include "cairn/core/errors.hpp"
 #include "cairn/eval/association.hpp"
 #include "cairn/eval/ate.hpp"
@@ -135,9 +136,9 @@ json RunWriter::error_path(const std::vector<PosePair>& pairs, const Ate& ate) c
                   {"y", json::array()},
                   {"position_m", json::array()},
                   {"heading_rad", json::array()}};
-  std::vector<double> values;
-  for (const PoseError& error : ate.errors) values.push_back(error.position_m);
-  for (const std::size_t i : select_extremes(values, kMaxPoints)) {
+  // Evenly: a path of nothing but extremes would look worse than the run was. The chart over time has the
+  // peaks.
+  for (const std::size_t i : select_evenly(pairs.size(), kMaxPoints)) {
     columns["t"].push_back(time(pairs[i].stamp));
     columns["x"].push_back(number(pairs[i].estimate.x, 3));
     columns["y"].push_back(number(pairs[i].estimate.y, 3));
@@ -155,6 +156,8 @@ void RunWriter::write_errors(json& out) const {
   const Ate ate = absolute_trajectory_error(pairs);
   const auto position = [](const PoseError& e) { return e.position_m; };
   const auto heading = [](const PoseError& e) { return std::abs(e.heading_rad); };
+  // Bins of a round width must be round in the unit that is shown.
+  const auto heading_degrees = [&](const PoseError& e) { return radians_to_degrees(heading(e)); };
   const auto histogram = [&](auto value) {
     std::vector<double> values;
     for (const PoseError& error : ate.errors) values.push_back(value(error));
@@ -165,7 +168,7 @@ void RunWriter::write_errors(json& out) const {
   out["errors"]["p95_m"] = significant(ate.position_m.p95);
   out["series"]["position_error_m"] = series(ate.errors, position);
   out["series"]["heading_error_rad"] = series(ate.errors, heading);
-  out["histograms"] = {{"position", histogram(position)}, {"heading", histogram(heading)}};
+  out["histograms"] = {{"position", histogram(position)}, {"heading", histogram(heading_degrees)}};
 }
 
 json RunWriter::particles() const {

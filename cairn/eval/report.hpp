@@ -44,7 +44,8 @@ struct ReportData {
 ///   hypotheses, weight, quality, and with a reference position_error_m, heading_error_rad
 /// - errors: columns t, x, y, position_m, heading_rad (absolute), and the number p95_m of all errors; only
 /// where reference and run overlap in time
-/// - histograms: position, heading, each {width, counts, beyond} of all errors; only with errors
+/// - histograms: position (metres), heading (degrees), each {width, counts, beyond} of all errors; only with
+///   errors
 /// - particles: t, and mm: x, y (millimetres), heading (milliradians) of each particle in turn
 /// - map: png (base64), width, height, resolution_m, origin [x, y, yaw]
 /// @throws InputError for metrics that are not a JSON object; std::logic_error for a page without the mark.

@@ -1,7 +1,7 @@
 // How often the error had which size.
 import { addChart, axis, grid, tooltip, yAxis } from './chart.js';
 import { card, el, tip } from './dom.js';
-import { count, figure, kDegrees, lengthUnit } from './format.js';
+import { count, figure, lengthUnit } from './format.js';
 import { color } from './theme.js';
 
 function histogram(parent, title, { width, counts: within, beyond }, unit) {
@@ -16,7 +16,7 @@ function histogram(parent, title, { width, counts: within, beyond }, unit) {
     label: title,
     options: () => ({
       grid: grid(),
-      xAxis: axis(`error [${unit.name}]${beyond > 0 ? `, the last bar: ${figure(within.length * step)} and more` : ''}`, { min: 0, max: counts.length * step, nameGap: 26, splitLine: { show: false } }),
+      xAxis: axis(`error [${unit.name}]${beyond > 0 ? `, the last bar: ${figure(within.length * step)} and more` : ''}`, { min: 0, max: counts.length * step, nameGap: 26, splitLine: { show: false }, axisLabel: { color: color('muted'), fontSize: 11, showMaxLabel: false } }),
       yAxis: yAxis('share of the poses [%]'),
       tooltip: tooltip({
         formatter: ([bar]) => tip(range(bar.dataIndex), [
@@ -45,5 +45,5 @@ export function drawHistograms(run, parent) {
   }
   const { position, heading } = run.histograms;
   histogram(parent, 'Distribution of the position error', position, lengthUnit(position.width * position.counts.length));
-  histogram(parent, 'Distribution of the heading error', heading, { name: '°', factor: kDegrees });
+  histogram(parent, 'Distribution of the heading error', heading, { name: '°', factor: 1 });
 }

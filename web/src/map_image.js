@@ -44,17 +44,16 @@ export class MapImage {
     this.canvas.getContext('2d').putImageData(this.pixels, 0, 0);
   }
 
-  /** Box in the plane around the cells that are known. */
+  /** Box in the plane around nearly all cells that are known: a few rays that left through a window do not count. */
   knownBox() {
     const { width, height } = this.canvas;
-    let [left, right, top, bottom] = [width, -1, height, -1];
+    const [columns, rows] = [new Float64Array(width), new Float64Array(height)];
     for (let i = 0; i < this.greys.length; ++i) {
       if (this.greys[i] === kUnknownGrey) continue;
-      const [column, row] = [i % width, Math.floor(i / width)];
-      [left, right] = [Math.min(left, column), Math.max(right, column)];
-      [top, bottom] = [Math.min(top, row), Math.max(bottom, row)];
+      columns[i % width] += 1;
+      rows[Math.floor(i / width)] += 1;
     }
-    if (right < 0) [left, right, top, bottom] = [0, width - 1, 0, height - 1];
+    const [[left, right], [top, bottom]] = [middleOf(columns), middleOf(rows)];
     const corners = [[left, top], [right + 1, top], [left, bottom + 1], [right + 1, bottom + 1]];
     return boxOf(corners.map(([column, row]) => this.toPlane(column, row)));
   }
@@ -79,6 +78,20 @@ export class MapImage {
     context.drawImage(this.canvas, 0, 0);
     context.restore();
   }
+}
+
+// First and last index between which all but a hundredth of the counts lie at either end.
+function middleOf(counts) {
+  const total = counts.reduce((a, b) => a + b, 0);
+  if (total === 0) return [0, counts.length - 1];
+  let sum = 0;
+  const ends = [];
+  counts.forEach((n, i) => {
+    if (sum <= 0.01 * total && sum + n > 0.01 * total) ends[0] = i;
+    if (sum < 0.99 * total && sum + n >= 0.99 * total) ends[1] = i;
+    sum += n;
+  });
+  return ends;
 }
 
 export function boxOf(points) {
