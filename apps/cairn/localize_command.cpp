@@ -82,16 +82,37 @@ Inputs read_inputs(const Arguments& arguments) {
   return inputs;
 }
 
-// The reference at the first scan, or its first pose where it begins after that.
+// The odometry that the localizer will use, as a trajectory.
+Trajectory odometry_of(const Inputs& inputs) {
+  Trajectory odometry;
+  std::optional<StreamId> stream;
+  for (const Event& event : inputs.log.events) {
+    const auto* sample = std::get_if<Odometry>(&event.payload);
+    const std::string& wanted = inputs.options.odometry_stream;
+    if (sample == nullptr || (!wanted.empty() && inputs.log.streams[event.stream].name != wanted)) continue;
+    if (stream.value_or(event.stream) != event.stream) continue;
+    stream = event.stream;
+    odometry.push_back({sample->stamp, sample->T_odom_base});
+  }
+  sort_by_stamp(odometry);
+  return odometry;
+}
+
+// Where the reference says that the robot was at the first scan; where it begins later, taken back from its first
+// pose by the odometry.
 Pose2 reference_start(const Inputs& inputs) {
   if (!inputs.reference || inputs.reference->empty()) {
     throw ConfigurationError("--init reference", "there is no reference", "give one with --reference");
   }
   const std::vector<Time> stamps = scan_stamps(inputs.log);
-  if (!stamps.empty()) {
-    if (const auto pose = pose_at(*inputs.reference, stamps.front())) return *pose;
-  }
-  return inputs.reference->front().pose;
+  if (stamps.empty()) return inputs.reference->front().pose;
+  if (const auto pose = pose_at(*inputs.reference, stamps.front())) return *pose;
+  const StampedPose& first = inputs.reference->front();
+  const Trajectory odometry = odometry_of(inputs);
+  const auto at_scan = pose_at(odometry, stamps.front());
+  const auto at_reference = pose_at(odometry, first.stamp);
+  if (!at_scan || !at_reference) return first.pose;
+  return first.pose * between(*at_reference, *at_scan);
 }
 
 Start choose_start(const Arguments& arguments, const Inputs& inputs) {

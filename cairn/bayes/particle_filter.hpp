@@ -57,6 +57,7 @@ class ParticleFilter {
       wanted = size_->wanted(std::span<const State>(states).subspan(first));
     }
     set_uniform_weights();
+    compact_ = regularization_ && regularization_->fit(particles_);
   }
 
   /// One turn of the filter: x' ~ p(x' | u, x), w = p(z | x').
@@ -73,6 +74,8 @@ class ParticleFilter {
   const ParticleSet<State>& particles() const { return particles_; }
   /// Effective sample size after the last measurement, 1..N.
   double ess() const { return ess_; }
+  /// True if the particles are one compact group (see Regularization::fit); false without a regularization.
+  bool compact() const { return compact_; }
   /// Share of the last measurement's log-likelihood that entered, 0..1 (see correct).
   double share_entered() const { return share_entered_; }
 
@@ -88,6 +91,7 @@ class ParticleFilter {
   void resample_and_predict(const Control& u) {
     const std::vector<double> cumulative = cumulative_weights(particles_.log_weights);
     const RandomStream random(options_.seed, RandomPurpose::kResample, step_);
+    const RandomStream moves(options_.seed, RandomPurpose::kRegularize, step_);
     next_.clear();
     std::size_t wanted = size_->begin();
     for (std::uint32_t batch = 0; next_.size() < wanted; ++batch) {
@@ -98,6 +102,8 @@ class ParticleFilter {
       for (const std::uint32_t ancestor : ancestors_) next_.push_back(particles_.states[ancestor]);
       const std::span<State> drawn = std::span(next_).subspan(first);
       predict(u, drawn, first);
+      if (regularization_ && !compact_)
+        regularization_->move(drawn, moves.from_item(static_cast<std::uint32_t>(first)), 0);
       wanted = size_->wanted(drawn);
     }
     std::swap(particles_.states, next_);
@@ -120,8 +126,8 @@ class ParticleFilter {
     double left = 1.0;
     for (std::uint32_t pass = 0;; ++pass) {
       left -= weigh(z, left);
-      if (left < kNegligibleShare || pass == kMostPasses || !regularization_) break;
-      if (!regularization_->fit(particles_)) break;
+      compact_ = regularization_ && regularization_->fit(particles_);
+      if (left < kNegligibleShare || pass == kMostPasses || !compact_) break;
       resample_and_move(pass);
     }
     share_entered_ = 1.0 - left;
@@ -173,6 +179,7 @@ class ParticleFilter {
   std::uint64_t step_ = 0;
   double ess_ = 0.0;
   double share_entered_ = 1.0;
+  bool compact_ = false;
 };
 
 }  // namespace cairn

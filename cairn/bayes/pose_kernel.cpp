@@ -1,5 +1,6 @@
 #include "cairn/bayes/pose_kernel.hpp"
 
+#include "cairn/bayes/clustering.hpp"
 #include "cairn/core/angle.hpp"
 #include "cairn/core/statistics.hpp"
 
@@ -12,16 +13,34 @@ void PoseKernelOptions::visit(OptionVisitor& v) {
   v.number({"width", "standard deviation of the moves as a share of the particles' own"}, width, {0.0, 1.0});
   v.number({"largest_spread_m", "particles spread wider than this are not moved, metres"}, largest_spread_m,
            {0.0, 1e6});
+  v.number({"min_weight", "a compact group holds at least this share of the belief"}, min_weight, {0.5, 1.0});
+  v.number({"wide_m", "standard deviation of the moves in position while the belief is not compact, metres"},
+           wide_m, {0.0, 10.0});
+  v.number({"wide_rad", "likewise of the heading, radians"}, wide_rad, {0.0, 3.2});
 }
 
 bool PoseKernel::fit(const ParticleSet<Pose2>& particles) {
   std::vector<double> weights(particles.size());
   for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = std::exp(particles.log_weights[i]);
-  const Eigen::Matrix3d covariance = weighted_moments(particles.states, weights).covariance;
-  if (std::sqrt(covariance(0, 0) + covariance(1, 1)) > options_.largest_spread_m) return false;
+  const bool compact =
+      fit_group(particles.states, weights) || fit_heaviest_cluster(particles.states, weights);
+  if (!compact) sigma_ = {options_.wide_m, options_.wide_m, options_.wide_rad};
+  return compact;
+}
+
+bool PoseKernel::fit_group(std::span<const Pose2> poses, std::span<const double> weights) {
+  const Eigen::Matrix3d covariance = weighted_moments(poses, weights).covariance;
   sigma_ = {options_.width * std::sqrt(covariance(0, 0)), options_.width * std::sqrt(covariance(1, 1)),
             options_.width * std::sqrt(covariance(2, 2))};
-  return true;
+  return std::sqrt(covariance(0, 0) + covariance(1, 1)) <= options_.largest_spread_m;
+}
+
+// A few stragglers far away must not keep the belief from counting as compact.
+bool PoseKernel::fit_heaviest_cluster(std::span<const Pose2> poses, std::span<double> weights) {
+  const Clusters clusters = cluster_poses(poses, weights, {});
+  if (clusters.weight.empty() || clusters.weight[0] < options_.min_weight) return false;
+  for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = clusters.label[i] == 0 ? weights[i] : 0.0;
+  return fit_group(poses, weights);
 }
 
 void PoseKernel::move(std::span<Pose2> states, const RandomStream& random, std::uint16_t draw) const {

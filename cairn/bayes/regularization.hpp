@@ -15,8 +15,8 @@ class Regularization {
  public:
   virtual ~Regularization() = default;
 
-  /// Takes the width of the moves from the weighted particles. False if they are not one compact group, which
-  /// no single width fits: then nothing is moved.
+  /// Takes the width of the moves from the weighted particles. True if they are one compact group, which a
+  /// measurement may enter in full; false if the belief is still spread over several places.
   virtual bool fit(const ParticleSet<State>& particles) = 0;
 
   /// Moves each state by its own random step; `draw` tells several moves within one step of the filter apart.

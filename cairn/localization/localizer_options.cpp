@@ -59,6 +59,12 @@ void InitialOptions::visit(OptionVisitor& v) {
   v.number({"sigma_yaw_rad", "likewise, radians"}, sigma_yaw_rad, {0.0, 7.0});
 }
 
+void GlobalOptions::visit(OptionVisitor& v) {
+  v.number({"sigma_hit_m", "as laser.sigma_hit_m, while the belief is spread over several places, metres"},
+           sigma_hit_m, {1e-3, 10.0});
+  v.number({"effective_beams", "as laser.effective_beams, likewise"}, effective_beams, {0.1, 100000});
+}
+
 void LocalizerOptions::visit(OptionVisitor& v) {
   const auto section = [&v](const std::string& name, const std::string& documentation, auto& options) {
     v.section({name, documentation}, [&options](OptionVisitor& inner) { options.visit(inner); });
@@ -72,6 +78,7 @@ void LocalizerOptions::visit(OptionVisitor& v) {
   section("filter", "particles", filter);
   section("update", "when a scan is worth an update", update);
   section("initial", "spread around a given start pose", initial);
+  section("global", "while the belief is spread over several places", global);
   std::vector<std::string> present;
   for (const auto& [name, unused] : streams) present.push_back(name);
   v.table({"streams", "laser streams by their name in the log; none: every laser stream is used"}, present,

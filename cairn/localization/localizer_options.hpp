@@ -52,6 +52,16 @@ struct InitialOptions {
   void visit(OptionVisitor& visitor);
 };
 
+/// How scans are read while the belief is spread over several places. There are then fewer particles than
+/// places, so that none stands exactly where the robot is: the likelihood must be as wide as the gaps between
+/// them.
+struct GlobalOptions {
+  double sigma_hit_m = 0.4;
+  double effective_beams = 10.0;
+
+  void visit(OptionVisitor& visitor);
+};
+
 /// Everything about a localizer but its map, its start and its seed.
 struct LocalizerOptions {
   std::string recipe = "kld_mcl";
@@ -61,6 +71,7 @@ struct LocalizerOptions {
   FilterOptions filter;
   UpdateOptions update;
   InitialOptions initial;
+  GlobalOptions global;
   std::map<std::string, LaserStreamOptions>
       streams;  ///< by name in the log; none: every laser stream is used
 

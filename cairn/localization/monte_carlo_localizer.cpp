@@ -103,7 +103,7 @@ Outcome MonteCarloLocalizer::take(StreamId stream, const Odometry& odometry) {
 }
 
 Outcome MonteCarloLocalizer::take(StreamId stream, const std::shared_ptr<const LaserScan>& scan) {
-  if (!laser_models_[stream]) return Outcome::kDroppedUnboundStream;
+  if (!laser_models_[stream].fine) return Outcome::kDroppedUnboundStream;
   const char* what = scan ? defect(*scan) : "is missing";
   if (what != nullptr) {
     diagnostics_.warn("malformed scan", "stream " + stream_names_[stream], what);
@@ -148,9 +148,10 @@ Outcome MonteCarloLocalizer::use(const PendingScan& pending, const Pose2& T_odom
   odometry_.forget_before(scan.stamp);
   const bool update = first || moved_enough(T_last_now);
   if (update) {
-    filter_.update(T_last_now, laser_models_[pending.stream]->bind(scan));
+    const LaserModels& models = laser_models_[pending.stream];
+    filter_.update(T_last_now, (filter_.compact() ? models.fine : models.coarse)->bind(scan));
     T_odom_base_at_update_ = T_odom_base;
-    at_update_ = summarize(scan, *laser_models_[pending.stream]);
+    at_update_ = summarize(scan, *models.fine);
     ++updates_;
   }
   estimate_ = at_update_;

@@ -51,6 +51,11 @@ class MonteCarloLocalizer final : public Localizer {
     StreamId stream;
     std::shared_ptr<const LaserScan> scan;
   };
+  /// One stream's sensor model at two widths; both null for a stream that is not bound.
+  struct LaserModels {
+    std::unique_ptr<const LikelihoodField> fine;
+    std::unique_ptr<const LikelihoodField> coarse;  ///< while the belief is spread over several places
+  };
   using Filter = ParticleFilter<Pose2, Pose2>;
 
   void bind_streams(const std::vector<StreamInfo>& streams, const OccupancyGrid& map);
@@ -66,7 +71,7 @@ class MonteCarloLocalizer final : public Localizer {
 
   LocalizerOptions options_;
   std::optional<StreamId> odometry_stream_;
-  std::vector<std::unique_ptr<const LikelihoodField>> laser_models_;  ///< per stream; null: not bound
+  std::vector<LaserModels> laser_models_;  ///< per stream
   std::vector<std::string> stream_names_;
   Filter filter_;
   Observer observer_;

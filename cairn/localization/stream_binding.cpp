@@ -44,10 +44,13 @@ void MonteCarloLocalizer::bind_streams(const std::vector<StreamInfo>& streams, c
   check_names(options_, streams);
   odometry_stream_ = find_odometry(streams, options_.odometry_stream);
   const auto field = std::make_shared<const DistanceField>(map, options_.laser.max_distance_m);
+  LikelihoodFieldOptions coarse = options_.laser;
+  coarse.sigma_hit_m = options_.global.sigma_hit_m;
+  coarse.effective_beams = options_.global.effective_beams;
   bool any = false;
   for (const StreamInfo& stream : streams) {
     stream_names_.push_back(stream.name);
-    laser_models_.push_back(nullptr);
+    laser_models_.emplace_back();
     if (stream.kind != StreamKind::kLaserScan) continue;
     const auto configured = options_.streams.find(stream.name);
     const bool named = configured != options_.streams.end();
@@ -56,8 +59,9 @@ void MonteCarloLocalizer::bind_streams(const std::vector<StreamInfo>& streams, c
     if (!laser.use) continue;
     const Pose2 T_base_sensor =
         laser.mount_from_log && stream.T_base_sensor ? *stream.T_base_sensor : laser.T_base_sensor;
-    laser_models_.back() =
-        std::make_unique<const LikelihoodField>(field, T_base_sensor, laser.limits, options_.laser);
+    laser_models_.back() = {
+        std::make_unique<const LikelihoodField>(field, T_base_sensor, laser.limits, options_.laser),
+        std::make_unique<const LikelihoodField>(field, T_base_sensor, laser.limits, coarse)};
     any = true;
   }
   if (!any) {
