@@ -19,7 +19,9 @@ class Localizer {
   virtual ~Localizer() = default;
 
   /// Takes the next event, in the order of arrival. Returns what became of it; kPending if that is decided by
-  /// a later event (a scan that waits for the odometry after it).
+  /// a later event (a scan that waits for the odometry after it). An event of a stream beyond the table has
+  /// no row in outcomes(): it is dropped (kDroppedUnboundStream) and counted in diagnostics() as "event of an
+  /// unknown stream".
   virtual Outcome process(const Event& event) = 0;
 
   /// Ends the input: decides what is still pending.
@@ -31,7 +33,8 @@ class Localizer {
   /// Sample of at most `at_most` particles of the current belief, for pictures.
   virtual ParticleSnapshot snapshot(std::size_t at_most) const = 0;
 
-  /// Final outcomes per stream; with kPending, their sum is the number of events processed.
+  /// Final outcomes per stream; with kPending, their sum is the number of events processed of the streams
+  /// in the table.
   virtual const std::vector<OutcomeCounts>& outcomes() const = 0;
   virtual const Diagnostics& diagnostics() const = 0;
 

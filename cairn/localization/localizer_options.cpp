@@ -2,9 +2,55 @@
 
 #include "cairn/core/errors.hpp"
 
+#include <algorithm>
+#include <sstream>
 #include <vector>
 
 namespace cairn {
+namespace {
+
+// Refuses a value outside the range that visit() gives for it: options may come from a program as well as
+// from a file.
+class RangeCheck final : public OptionVisitor {
+ public:
+  void number(const Field& field, double& value, Range range) override { check(field, value, range); }
+  void integer(const Field& field, int& value, Range range) override { check(field, value, range); }
+  void flag(const Field&, bool&) override {}
+  void choice(const Field& field, std::string& value, const std::vector<std::string>& choices) override {
+    if (std::find(choices.begin(), choices.end(), value) != choices.end()) return;
+    throw ConfigurationError(prefix_ + field.name, "'" + value + "' is not known", "see `cairn config`");
+  }
+  void text(const Field&, std::string&) override {}
+  void section(const Field& field, const std::function<void(OptionVisitor&)>& visit) override {
+    within(field.name, [&] { visit(*this); });
+  }
+  void table(const Field& field, const std::vector<std::string>& present,
+             const std::function<void(const std::string&, OptionVisitor&)>& visit_entry) override {
+    for (const std::string& key : present) {
+      within(field.name + "." + key, [&] { visit_entry(key, *this); });
+    }
+  }
+
+ private:
+  template <class Visit>
+  void within(const std::string& name, const Visit& visit) {
+    const std::string outer = prefix_;
+    prefix_ += name + ".";
+    visit();
+    prefix_ = outer;
+  }
+
+  void check(const Field& field, double value, Range range) const {
+    if (value >= range.min && value <= range.max) return;  // false for NaN
+    std::ostringstream remedy;
+    remedy << "give a value from " << range.min << " to " << range.max;
+    throw ConfigurationError(prefix_ + field.name, "is out of range", remedy.str());
+  }
+
+  std::string prefix_;
+};
+
+}  // namespace
 
 void LaserStreamOptions::visit(OptionVisitor& v) {
   const Range anywhere{-1e4, 1e4};
@@ -41,7 +87,8 @@ void FilterOptions::visit(OptionVisitor& v) {
 
 void FilterOptions::validate() const {
   if (min_particles > max_particles) {
-    throw ConfigurationError("filter.min_particles", "is larger than filter.max_particles", "swap them");
+    throw ConfigurationError("filter.min_particles", "is larger than filter.max_particles",
+                             "lower it or raise max_particles");
   }
 }
 
@@ -86,6 +133,8 @@ void LocalizerOptions::visit(OptionVisitor& v) {
 }
 
 void LocalizerOptions::validate() const {
+  RangeCheck ranges;
+  LocalizerOptions(*this).visit(ranges);
   filter.validate();
   if (laser.z_hit + laser.z_rand <= 0.0) {
     throw ConfigurationError("laser.z_hit", "and z_rand are both zero", "give one of them a weight");
@@ -93,7 +142,7 @@ void LocalizerOptions::validate() const {
   for (const auto& [name, stream] : streams) {
     if (stream.limits.min_range_m >= stream.limits.max_range_m) {
       throw ConfigurationError("streams." + name + ".min_range_m", "is not below max_range_m",
-                               "correct one of them");
+                               "make it smaller than max_range_m");
     }
   }
 }

@@ -76,7 +76,10 @@ struct LocalizerOptions {
       streams;  ///< by name in the log; none: every laser stream is used
 
   void visit(OptionVisitor& visitor);
-  void validate() const;  ///< @throws ConfigurationError
+  /// @throws ConfigurationError for a value out of the range that visit() gives, and for values that do not
+  /// fit
+  ///   each other
+  void validate() const;
 };
 
 }  // namespace cairn

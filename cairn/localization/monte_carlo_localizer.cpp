@@ -3,6 +3,7 @@
 #include "cairn/bayes/clustering.hpp"
 #include "cairn/core/angle.hpp"
 #include "cairn/core/errors.hpp"
+#include "cairn/localization/event_check.hpp"
 #include "cairn/localization/recipes.hpp"
 
 #include <algorithm>
@@ -42,14 +43,9 @@ Pose2 sample_near(const Pose2& mean, const InitialOptions& o, const RandomStream
           normalize_angle(mean.theta + o.sigma_yaw_rad * n[2])};
 }
 
-const char* defect(const LaserScan& scan) {
-  if (scan.ranges_m.empty()) return "has no beams";
-  if (!std::isfinite(scan.angle_min_rad) || !std::isfinite(scan.angle_increment_rad))
-    return "has angles that are not finite";
-  if (scan.ranges_m.size() > 1 && scan.angle_increment_rad == 0.0) return "has an angle increment of 0";
-  const auto valid = [&](float r) { return scan.is_valid_range(r); };
-  if (std::none_of(scan.ranges_m.begin(), scan.ranges_m.end(), valid)) return "has no valid range";
-  return nullptr;
+const LocalizerOptions& validated(const LocalizerOptions& options) {
+  options.validate();
+  return options;
 }
 
 }  // namespace
@@ -58,8 +54,10 @@ MonteCarloLocalizer::MonteCarloLocalizer(const LocalizerOptions& options,
                                          const std::vector<StreamInfo>& streams, const OccupancyGrid& map,
                                          const Start& start, std::uint64_t seed,
                                          std::shared_ptr<const Executor> executor)
-    : options_(options), filter_(make_filter(options, seed, std::move(executor))), outcomes_(streams.size()) {
-  options_.validate();
+    : options_(validated(options)),
+      filter_(make_filter(options, seed, std::move(executor))),
+      last_used_(streams.size()),
+      outcomes_(streams.size()) {
   bind_streams(streams, map);
   initialize(map, start);
 }
@@ -76,67 +74,96 @@ void MonteCarloLocalizer::initialize(const OccupancyGrid& map, const Start& star
   }
   const Pose2& pose = *start.T_map_base;
   const Point2 cell = map.geometry().to_cells({pose.x, pose.y});
-  if (!is_finite(pose) ||
-      !map.geometry().contains(static_cast<int>(std::floor(cell.x)), static_cast<int>(std::floor(cell.y)))) {
+  const GridGeometry& grid = map.geometry();
+  const bool on_map =
+      is_finite(pose) && cell.x >= 0.0 && cell.x < grid.width && cell.y >= 0.0 && cell.y < grid.height;
+  if (!on_map)
     throw ConfigurationError("start pose", "lies off the map", "give x and y in metres, in the map's frame");
-  }
   filter_.initialize([&](const RandomStream& random, std::uint32_t i) {
     return sample_near(pose, options_.initial, random, i);
   });
 }
 
 Outcome MonteCarloLocalizer::process(const Event& event) {
-  if (event.stream >= outcomes_.size()) return Outcome::kDroppedUnboundStream;
-  const Outcome outcome =
-      std::visit([&](const auto& payload) { return take(event.stream, payload); }, event.payload);
-  count(event.stream, outcome);
+  if (event.stream >= outcomes_.size()) {
+    diagnostics_.warn("event of an unknown stream", "stream " + std::to_string(event.stream),
+                      "the table has " + std::to_string(outcomes_.size()) + " streams");
+    return Outcome::kDroppedUnboundStream;
+  }
+  ++event_number_;
+  event_outcome_ = take(event);
+  count(event.stream, event_outcome_);
   use_pending();
-  return outcome;
+  return event_outcome_;
 }
 
-Outcome MonteCarloLocalizer::take(StreamId stream, const Odometry& odometry) {
-  if (stream != odometry_stream_) return Outcome::kDroppedUnboundStream;
-  if (!is_finite(odometry.T_odom_base)) return Outcome::kDroppedMalformed;
-  if (!odometry_.empty() && odometry.stamp <= odometry_.newest()) return Outcome::kDroppedOutOfOrder;
-  odometry_.add(odometry);
-  return Outcome::kUsed;
+Outcome MonteCarloLocalizer::take(const Event& event) {
+  const auto* odometry = std::get_if<Odometry>(&event.payload);
+  const bool bound =
+      odometry != nullptr ? event.stream == odometry_stream_ : laser_models_[event.stream].fine != nullptr;
+  if (!bound) return Outcome::kDroppedUnboundStream;
+  if (const char* what = defect(event)) {
+    diagnostics_.warn(odometry != nullptr ? "malformed odometry" : "malformed scan",
+                      "stream " + stream_names_[event.stream] + " at " + format_time(event.stamp) + " s",
+                      what);
+    return Outcome::kDroppedMalformed;
+  }
+  if (odometry != nullptr) return take(*odometry);
+  return take(event.stream, std::get<std::shared_ptr<const LaserScan>>(event.payload));
+}
+
+Outcome MonteCarloLocalizer::take(const Odometry& odometry) {
+  const OdometryBuffer::Intake intake = odometry_.offer(odometry);
+  if (intake.held) settle(*odometry_stream_, *intake.held);
+  if (intake.set_back) {
+    diagnostics_.warn("clock set back", "odometry at " + format_time(odometry.stamp) + " s",
+                      "the stamps go on from here");
+    if (belief_stamp_) belief_stamp_ = std::min(*belief_stamp_, odometry_.oldest());
+  }
+  if (intake.now == Outcome::kPending) {
+    diagnostics_.warn("odometry stamp jumps", "odometry at " + format_time(odometry.stamp) + " s",
+                      "the one before it was at " + format_time(odometry_.newest()) + " s");
+  }
+  return intake.now;
 }
 
 Outcome MonteCarloLocalizer::take(StreamId stream, const std::shared_ptr<const LaserScan>& scan) {
-  if (!laser_models_[stream].fine) return Outcome::kDroppedUnboundStream;
-  const char* what = scan ? defect(*scan) : "is missing";
-  if (what != nullptr) {
-    diagnostics_.warn("malformed scan", "stream " + stream_names_[stream], what);
-    return Outcome::kDroppedMalformed;
-  }
   if (belief_stamp_ && scan->stamp < *belief_stamp_) return Outcome::kDroppedOutOfOrder;
+  const auto waits = [&](const PendingScan& p) { return p.stream == stream && p.scan->stamp == scan->stamp; };
+  if (last_used_[stream] == scan->stamp || std::any_of(pending_.begin(), pending_.end(), waits)) {
+    diagnostics_.warn("duplicate scan", "stream " + stream_names_[stream],
+                      "two scans at " + format_time(scan->stamp) + " s");
+    return Outcome::kDroppedOutOfOrder;
+  }
   const auto later = std::upper_bound(pending_.begin(), pending_.end(), scan->stamp,
                                       [](Time t, const PendingScan& p) { return t < p.scan->stamp; });
-  pending_.insert(later, {stream, scan});
+  pending_.insert(later, {stream, scan, event_number_});
   return Outcome::kPending;
 }
 
-// Uses the scans around which the odometry is known, oldest first.
+// Uses the scans around which the odometry is known, oldest first. Where too many wait, the latest goes: one
+// from the future must not push out those that can still be used.
 void MonteCarloLocalizer::use_pending() {
-  while (!pending_.empty()) {
+  while (!pending_.empty() && !odometry_.empty() && pending_.front().scan->stamp <= odometry_.newest()) {
     const PendingScan next = pending_.front();
-    const bool too_old = !odometry_.empty() && next.scan->stamp < odometry_.oldest();
-    const auto T_odom_base = odometry_.pose_at(next.scan->stamp);
-    if (!T_odom_base && !too_old && pending_.size() <= kMostPendingScans) return;
     pending_.pop_front();
-    --outcomes_[next.stream][static_cast<std::size_t>(Outcome::kPending)];
-    count(next.stream, T_odom_base ? use(next, *T_odom_base) : Outcome::kDroppedNoOdometry);
+    const auto T_odom_base = odometry_.pose_at(next.scan->stamp);
+    decide(next, T_odom_base ? use(next, *T_odom_base) : Outcome::kDroppedNoOdometry);
   }
+  if (pending_.size() <= kMostPendingScans) return;
+  const PendingScan latest = pending_.back();
+  pending_.pop_back();
+  decide(latest, Outcome::kDroppedNoOdometry);
 }
 
 void MonteCarloLocalizer::finish() {
+  if (odometry_.drop_held()) settle(*odometry_stream_, Outcome::kDroppedOutOfOrder);
   while (!pending_.empty()) {
     const PendingScan next = pending_.front();
     pending_.pop_front();
-    --outcomes_[next.stream][static_cast<std::size_t>(Outcome::kPending)];
     const bool close =
         !odometry_.empty() && to_seconds(next.scan->stamp - odometry_.newest()) <= kExtrapolation_s;
-    count(next.stream, close ? use(next, odometry_.newest_pose()) : Outcome::kDroppedNoOdometry);
+    decide(next, close ? use(next, odometry_.newest_pose()) : Outcome::kDroppedNoOdometry);
   }
 }
 
@@ -145,6 +172,7 @@ Outcome MonteCarloLocalizer::use(const PendingScan& pending, const Pose2& T_odom
   const bool first = !belief_stamp_;
   const Pose2 T_last_now = first ? Pose2{} : between(T_odom_base_at_update_, T_odom_base);
   belief_stamp_ = scan.stamp;
+  last_used_[pending.stream] = scan.stamp;
   odometry_.forget_before(scan.stamp);
   const bool update = first || moved_enough(T_last_now);
   if (update) {
@@ -196,6 +224,16 @@ ParticleSnapshot MonteCarloLocalizer::snapshot(std::size_t at_most) const {
   const Pose2 T_then_now = between(at_update_.T_map_base, estimate_->T_map_base);
   for (const std::uint32_t i : chosen) snapshot.particles.push_back(particles.states[i] * T_then_now);
   return snapshot;
+}
+
+void MonteCarloLocalizer::decide(const PendingScan& scan, Outcome outcome) {
+  settle(scan.stream, outcome);
+  if (scan.event_number == event_number_) event_outcome_ = outcome;
+}
+
+void MonteCarloLocalizer::settle(StreamId stream, Outcome outcome) {
+  --outcomes_[stream][static_cast<std::size_t>(Outcome::kPending)];
+  count(stream, outcome);
 }
 
 void MonteCarloLocalizer::count(StreamId stream, Outcome outcome) {

@@ -24,6 +24,13 @@ struct Start {
 /// on one odometry stream and any number of laser streams.
 ///
 /// A scan waits until odometry around its stamp is known; the motion between two scans is cut exactly there.
+/// At most 1000 scans wait: of more, the latest is dropped. The end of the input (finish) uses scans up to
+/// 0.5 s after the last odometry where that stood; later ones are dropped.
+///
+/// What does not fit is dropped and counted: event_check.hpp says what is malformed, odometry_buffer.hpp
+/// which odometry stamps are believed. A second scan of one stream with the same stamp is dropped as out of
+/// order (a duplicate); so is a scan older than the belief. Where the odometry's clock was set back, the
+/// belief stays and the stamps go on from there.
 class MonteCarloLocalizer final : public Localizer {
  public:
   using Observer = std::function<void(const Estimate&)>;
@@ -35,7 +42,7 @@ class MonteCarloLocalizer final : public Localizer {
                       std::shared_ptr<const Executor> executor);
 
   /// Called with the belief at the stamp of every scan that was used or not needed, in the order of the
-  /// stamps.
+  /// stamps (unless the clock was set back).
   void set_observer(Observer observer) { observer_ = std::move(observer); }
 
   Outcome process(const Event& event) override;
@@ -50,6 +57,7 @@ class MonteCarloLocalizer final : public Localizer {
   struct PendingScan {
     StreamId stream;
     std::shared_ptr<const LaserScan> scan;
+    std::uint64_t event_number;  ///< of the event that brought it
   };
   /// One stream's sensor model at two widths; both null for a stream that is not bound.
   struct LaserModels {
@@ -61,10 +69,13 @@ class MonteCarloLocalizer final : public Localizer {
   void bind_streams(const std::vector<StreamInfo>& streams, const OccupancyGrid& map);
   void initialize(const OccupancyGrid& map, const Start& start);
 
-  Outcome take(StreamId stream, const Odometry& odometry);
+  Outcome take(const Event& event);
+  Outcome take(const Odometry& odometry);
   Outcome take(StreamId stream, const std::shared_ptr<const LaserScan>& scan);
   void use_pending();
   Outcome use(const PendingScan& pending, const Pose2& T_odom_base);
+  void decide(const PendingScan& scan, Outcome outcome);
+  void settle(StreamId stream, Outcome outcome);
   void count(StreamId stream, Outcome outcome);
   bool moved_enough(const Pose2& T_last_now) const;
   Estimate summarize(const LaserScan& scan, const LikelihoodField& model) const;
@@ -79,10 +90,13 @@ class MonteCarloLocalizer final : public Localizer {
   OdometryBuffer odometry_;
   std::deque<PendingScan> pending_;  ///< in the order of their stamps
   std::optional<Time> belief_stamp_;
-  Pose2 T_odom_base_at_update_;  ///< odometry at the last update
-  Estimate at_update_;           ///< belief right after the last update
+  std::vector<std::optional<Time>> last_used_;  ///< per stream, the stamp of the last scan
+  Pose2 T_odom_base_at_update_;                 ///< odometry at the last update
+  Estimate at_update_;                          ///< belief right after the last update
   std::optional<Estimate> estimate_;
   std::vector<OutcomeCounts> outcomes_;
+  std::uint64_t event_number_ = 0;             ///< of the event in process()
+  Outcome event_outcome_ = Outcome::kPending;  ///< what became of it so far
   Diagnostics diagnostics_;
   std::int64_t updates_ = 0;
 };

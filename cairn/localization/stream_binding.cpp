@@ -19,9 +19,10 @@ StreamId find_odometry(const std::vector<StreamInfo>& streams, const std::string
     return s.kind == StreamKind::kOdometry && (wanted.empty() || s.name == wanted);
   });
   if (found == streams.end()) {
-    throw ConfigurationError("odometry_stream",
-                             "the log has no odometry " + (wanted.empty() ? "" : "'" + wanted + "'"),
-                             "its odometry streams: " + names_of(streams, StreamKind::kOdometry));
+    throw ConfigurationError(
+        "odometry_stream",
+        wanted.empty() ? "the log has no odometry" : "the log has no odometry '" + wanted + "'",
+        "its odometry streams: " + names_of(streams, StreamKind::kOdometry));
   }
   return static_cast<StreamId>(found - streams.begin());
 }
