@@ -7,15 +7,16 @@
 namespace cairn {
 namespace {
 
-// sin(a)/a and (1-cos(a))/a; below the bound the next Taylor term is under 1e-17.
+// sin(a)/a and (1-cos(a))/a, the latter as 2 sin(a/2)^2/a: 1-cos(a) would lose the digits of small angles.
 struct ArcFactors {
   double along;
   double across;
 };
 
 ArcFactors arc_factors(double angle) {
-  if (std::abs(angle) < 1e-5) return {1.0 - angle * angle / 6.0, angle / 2.0};
-  return {std::sin(angle) / angle, (1.0 - std::cos(angle)) / angle};
+  if (angle == 0.0) return {1.0, 0.0};
+  const double half = std::sin(angle / 2.0);
+  return {std::sin(angle) / angle, 2.0 * half * half / angle};
 }
 
 }  // namespace

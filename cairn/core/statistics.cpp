@@ -11,6 +11,9 @@
 namespace cairn {
 namespace {
 
+// Below this quantile the density of the Halley step underflows.
+constexpr double kHalleyLimit = -37.5;
+
 template <std::size_t N>
 double polynomial(const std::array<double, N>& coefficients, double x) {
   double value = 0.0;
@@ -42,6 +45,7 @@ double quantile_approximation(double p) {
 double log_sum_exp(std::span<const double> values) {
   if (values.empty()) return -std::numeric_limits<double>::infinity();
   const double largest = *std::max_element(values.begin(), values.end());
+  if (std::isinf(largest)) return largest;  // infinity minus infinity would not be a number
   double sum = 0.0;
   for (const double value : values) sum += std::exp(value - largest);
   return largest + std::log(sum);
@@ -82,7 +86,10 @@ PoseMoments weighted_moments(std::span<const Pose2> poses, std::span<const doubl
 
 double normal_quantile(double probability) {
   CAIRN_ASSERT(probability > 0.0 && probability < 1.0);
+  // The upper half by symmetry: close to 1 the difference to erfc would be nothing but rounding.
+  if (probability > 0.5) return -normal_quantile(1.0 - probability);
   const double x = quantile_approximation(probability);
+  if (x < kHalleyLimit) return x;
   const double error = 0.5 * std::erfc(-x / std::numbers::sqrt2) - probability;
   const double step = error * std::sqrt(kTwoPi) * std::exp(x * x / 2.0);
   return x - step / (1.0 + x * step / 2.0);

@@ -8,7 +8,7 @@
 
 namespace cairn {
 
-/// log(sum(exp(values))) without overflow or underflow; -infinity for an empty span.
+/// log(sum(exp(values))) without overflow or underflow; -infinity for an empty span or if all are -infinity.
 double log_sum_exp(std::span<const double> values);
 
 /// Turns log-weights of any offset into weights that sum to 1, in place (log-weights become log(w_i)).
