@@ -7,18 +7,21 @@
 namespace cairn {
 namespace {
 
-// Below this the direction of the translation is noise: the whole rotation is taken as the second turn.
+// Below this the direction of the translation is noise: it is kept as it is, and the whole rotation is taken
+// as the second turn.
 constexpr double kNoTranslation_m = 0.01;
 
 struct TurnDriveTurn {
   double turn1;
   double drive;
   double turn2;
+  double aside = 0.0;  ///< to the left while driving
 };
 
 TurnDriveTurn decompose(const Pose2& T) {
   const double drive = std::hypot(T.x, T.y);
-  const double turn1 = drive < kNoTranslation_m ? 0.0 : std::atan2(T.y, T.x);
+  if (drive < kNoTranslation_m) return {0.0, T.x, T.theta, T.y};
+  const double turn1 = std::atan2(T.y, T.x);
   if (std::abs(turn1) <= kPi / 2.0) return {turn1, drive, angle_difference(T.theta, turn1)};
   const double backwards = normalize_angle(turn1 + kPi);
   return {backwards, -drive, angle_difference(T.theta, backwards)};
@@ -44,7 +47,7 @@ void DifferentialDriveOptions::visit(OptionVisitor& v) {
 
 void DifferentialDrive::propagate(const Pose2& T_before_after, std::span<Pose2> states,
                                   const RandomStream& random) const {
-  const auto [turn1, drive, turn2] = decompose(T_before_after);
+  const auto [turn1, drive, turn2, aside] = decompose(T_before_after);
   const auto& o = options_;
   const double sigma_turn1 = std::sqrt(o.alpha1 * square(turn1) + o.alpha2 * square(drive));
   const double sigma_turn2 =
@@ -55,7 +58,7 @@ void DifferentialDrive::propagate(const Pose2& T_before_after, std::span<Pose2> 
     const auto n = random.normal4(static_cast<std::uint32_t>(i));
     const double heading = states[i].theta + turn1 + sigma_turn1 * n[0];
     const double along = drive + sigma_drive * n[1];
-    const double across = o.sigma_min_m * n[3];
+    const double across = aside + o.sigma_min_m * n[3];
     const double c = std::cos(heading), s = std::sin(heading);
     states[i] = {states[i].x + c * along - s * across, states[i].y + s * along + c * across,
                  normalize_angle(heading + turn2 + sigma_turn2 * n[2])};
