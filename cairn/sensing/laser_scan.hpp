@@ -19,7 +19,9 @@ struct LaserScan {
   double range_max_m = 0.0;
   std::vector<float> ranges_m;
 
-  bool is_valid_range(float range_m) const { return range_m >= range_min_m && range_m < range_max_m; }
+  bool is_valid_range(float range_m) const {
+    return range_m > 0.0f && range_m >= range_min_m && range_m < range_max_m;
+  }
 };
 
 }  // namespace cairn

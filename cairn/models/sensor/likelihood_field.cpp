@@ -38,9 +38,10 @@ struct LikelihoodField::Table {
   Table(const DistanceField& field, const LikelihoodFieldOptions& options);
 
   float at(double column, double row) const {
-    // Clamped into the border as floating point, so that no far-away value overflows an index.
-    const auto c = static_cast<std::size_t>(std::clamp(column + 1.0, 0.0, last_column));
-    const auto r = static_cast<std::size_t>(std::clamp(row + 1.0, 0.0, last_row));
+    // Clamped into the border as floating point, so that no far-away value overflows an index. In this order
+    // min() takes what is not a number to the border, too.
+    const auto c = static_cast<std::size_t>(std::max(0.0, std::min(last_column, column + 1.0)));
+    const auto r = static_cast<std::size_t>(std::max(0.0, std::min(last_row, row + 1.0)));
     return log_likelihood[r * stride + c];
   }
 

@@ -35,7 +35,8 @@ class LikelihoodField final : public SensorModel<Pose2, LaserScan> {
   LikelihoodField(std::shared_ptr<const DistanceField> field, const Pose2& T_base_sensor,
                   const BeamLimits& limits, const LikelihoodFieldOptions& options);
 
-  /// States are T_map_base. A scan without a valid beam gives 0 everywhere.
+  /// States are T_map_base. A scan without a valid beam gives 0 everywhere; a state that is not finite scores
+  /// as one far off the map.
   BoundUpdate<Pose2> bind(const LaserScan& scan) const override;
 
   /// Share of the evaluated beams that end within 3 sigma_hit of a wall, seen from `T_map_base`: 0..1.
