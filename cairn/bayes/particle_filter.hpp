@@ -84,6 +84,8 @@ class ParticleFilter {
       128;  // particles per task; fixed, so that results do not depend on threads
   static constexpr std::size_t kSmallestBatch = 64;
   static constexpr std::uint32_t kMostPasses = 5;
+  // Draws of kRegularize: 0 are the offsets of the combs, 1 to kMostPasses the moves after them.
+  static constexpr std::uint16_t kWideMoveDraw = kMostPasses + 1;
   static constexpr double kNegligibleShare = 0.01;
 
   // Fox 2003, table 1: draw ancestors and predict them until there are as many as the predicted spread asks
@@ -96,14 +98,15 @@ class ParticleFilter {
     std::size_t wanted = size_->begin();
     for (std::uint32_t batch = 0; next_.size() < wanted; ++batch) {
       const std::size_t first = next_.size();
-      const std::size_t count = batch == 0 ? wanted : std::max(wanted - first, kSmallestBatch);
+      const std::size_t count =
+          batch == 0 ? wanted : std::min(std::max(wanted - first, kSmallestBatch), size_->most() - first);
       ancestors_.clear();
       draw_systematic(cumulative, count, random.uniform(batch), ancestors_);
       for (const std::uint32_t ancestor : ancestors_) next_.push_back(particles_.states[ancestor]);
       const std::span<State> drawn = std::span(next_).subspan(first);
       predict(u, drawn, first);
       if (regularization_ && !compact_)
-        regularization_->move(drawn, moves.from_item(static_cast<std::uint32_t>(first)), 0);
+        regularization_->move(drawn, moves.from_item(static_cast<std::uint32_t>(first)), kWideMoveDraw);
       wanted = size_->wanted(drawn);
     }
     std::swap(particles_.states, next_);

@@ -21,6 +21,9 @@ class SampleSize {
 
   /// Takes notice of newly drawn, already predicted particles; returns how many there should be in all.
   virtual std::size_t wanted(std::span<const State> newly_drawn) = 0;
+
+  /// A generation never has more particles than this.
+  virtual std::size_t most() const = 0;
 };
 
 /// Always the same number.
@@ -30,6 +33,7 @@ class FixedSize final : public SampleSize<State> {
   explicit FixedSize(std::size_t count) : count_(count) {}
   std::size_t begin() override { return count_; }
   std::size_t wanted(std::span<const State>) override { return count_; }
+  std::size_t most() const override { return count_; }
 
  private:
   std::size_t count_;
@@ -52,6 +56,8 @@ class KldSize final : public SampleSize<Pose2> {
     for (const Pose2& pose : newly_drawn) occupied_.insert(bins_.key(pose));
     return std::clamp(kld_bound(occupied_.size(), options_), min_, max_);
   }
+
+  std::size_t most() const override { return max_; }
 
  private:
   KldOptions options_;
