@@ -20,6 +20,7 @@ enum class RandomPurpose : std::uint16_t {
   kSimulation = 3,
   kTest = 4,
   kRegularize = 5,
+  kCandidates = 6,
 };
 
 /// Random numbers as a pure function of (seed, purpose, step, item, draw).

@@ -110,6 +110,8 @@ void GlobalOptions::visit(OptionVisitor& v) {
   v.number({"sigma_hit_m", "as laser.sigma_hit_m, while the belief is spread over several places, metres"},
            sigma_hit_m, {1e-3, 10.0});
   v.number({"effective_beams", "as laser.effective_beams, likewise"}, effective_beams, {0.1, 100000});
+  v.number({"candidates_per_m2", "poses that the first scan chooses from, per square metre of free space"},
+           candidates_per_m2, {0.1, 1e5});
 }
 
 void LocalizerOptions::visit(OptionVisitor& v) {

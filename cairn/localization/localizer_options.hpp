@@ -58,6 +58,8 @@ struct InitialOptions {
 struct GlobalOptions {
   double sigma_hit_m = 0.4;
   double effective_beams = 10.0;
+  double candidates_per_m2 =
+      250.0;  ///< poses that the first scan of a robot that may be anywhere chooses from
 
   void visit(OptionVisitor& visitor);
 };

@@ -17,25 +17,6 @@ constexpr std::size_t kMostPendingScans = 1000;
 // A scan after the last odometry is still used if the robot cannot have gone far.
 constexpr double kExtrapolation_s = 0.5;
 
-std::vector<std::size_t> free_cells(const OccupancyGrid& map) {
-  std::vector<std::size_t> cells;
-  for (std::size_t i = 0; i < map.geometry().size(); ++i) {
-    if (map.state(i) == CellState::kFree) cells.push_back(i);
-  }
-  return cells;
-}
-
-// Uniform over the free cells and all headings.
-Pose2 sample_anywhere(const GridGeometry& grid, const std::vector<std::size_t>& cells,
-                      const RandomStream& random, std::uint32_t item) {
-  const auto u = random.uniform4(item);
-  const std::size_t cell = cells[static_cast<std::size_t>(u[0] * static_cast<double>(cells.size()))];
-  const auto width = static_cast<std::size_t>(grid.width);
-  const Point2 p = grid.T_map_grid * Point2{(static_cast<double>(cell % width) + u[1]) * grid.resolution_m,
-                                            (static_cast<double>(cell / width) + u[2]) * grid.resolution_m};
-  return {p.x, p.y, normalize_angle(kTwoPi * u[3] - kPi)};
-}
-
 Pose2 sample_near(const Pose2& mean, const InitialOptions& o, const RandomStream& random,
                   std::uint32_t item) {
   const auto n = random.normal4(item);
@@ -55,33 +36,36 @@ MonteCarloLocalizer::MonteCarloLocalizer(const LocalizerOptions& options,
                                          const Start& start, std::uint64_t seed,
                                          std::shared_ptr<const Executor> executor)
     : options_(validated(options)),
-      filter_(make_filter(options, seed, std::move(executor))),
+      executor_(std::move(executor)),
+      filter_(make_filter(options, seed, executor_)),
       last_used_(streams.size()),
       outcomes_(streams.size()) {
   bind_streams(streams, map);
-  initialize(map, start);
+  if (start.T_map_base) {
+    start_near(*start.T_map_base, map.geometry());
+  } else {
+    global_start_.emplace(map, options_.global.candidates_per_m2, seed);
+  }
 }
 
-void MonteCarloLocalizer::initialize(const OccupancyGrid& map, const Start& start) {
-  if (!start.T_map_base) {
-    const std::vector<std::size_t> cells = free_cells(map);
-    if (cells.empty())
-      throw ConfigurationError("map", "has no free cell to start from", "check its thresholds");
-    filter_.initialize([&](const RandomStream& random, std::uint32_t i) {
-      return sample_anywhere(map.geometry(), cells, random, i);
-    });
-    return;
-  }
-  const Pose2& pose = *start.T_map_base;
-  const Point2 cell = map.geometry().to_cells({pose.x, pose.y});
-  const GridGeometry& grid = map.geometry();
+void MonteCarloLocalizer::start_near(const Pose2& pose, const GridGeometry& grid) {
+  const Point2 cell = grid.to_cells({pose.x, pose.y});
   const bool on_map =
       is_finite(pose) && cell.x >= 0.0 && cell.x < grid.width && cell.y >= 0.0 && cell.y < grid.height;
-  if (!on_map)
+  if (!on_map) {
     throw ConfigurationError("start pose", "lies off the map", "give x and y in metres, in the map's frame");
+  }
   filter_.initialize([&](const RandomStream& random, std::uint32_t i) {
     return sample_near(pose, options_.initial, random, i);
   });
+}
+
+// The first scan of a robot that may be anywhere makes the first particles; it must not weigh them once more.
+void MonteCarloLocalizer::start_anywhere(const BoundUpdate<Pose2>& z) {
+  global_start_->weigh(z, *executor_);
+  filter_.initialize(
+      [&](const RandomStream& random, std::uint32_t i) { return global_start_->sample(random, i); });
+  global_start_.reset();
 }
 
 Outcome MonteCarloLocalizer::process(const Event& event) {
@@ -177,7 +161,11 @@ Outcome MonteCarloLocalizer::use(const PendingScan& pending, const Pose2& T_odom
   const bool update = first || moved_enough(T_last_now);
   if (update) {
     const LaserModels& models = laser_models_[pending.stream];
-    filter_.update(T_last_now, (filter_.compact() ? models.fine : models.coarse)->bind(scan));
+    if (global_start_) {
+      start_anywhere(models.coarse->bind(scan));
+    } else {
+      filter_.update(T_last_now, (filter_.compact() ? models.fine : models.coarse)->bind(scan));
+    }
     T_odom_base_at_update_ = T_odom_base;
     at_update_ = summarize(scan, *models.fine);
     ++updates_;

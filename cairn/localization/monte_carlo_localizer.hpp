@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cairn/bayes/particle_filter.hpp"
+#include "cairn/localization/global_start.hpp"
 #include "cairn/localization/localizer.hpp"
 #include "cairn/localization/localizer_options.hpp"
 #include "cairn/localization/odometry_buffer.hpp"
@@ -67,7 +68,8 @@ class MonteCarloLocalizer final : public Localizer {
   using Filter = ParticleFilter<Pose2, Pose2>;
 
   void bind_streams(const std::vector<StreamInfo>& streams, const OccupancyGrid& map);
-  void initialize(const OccupancyGrid& map, const Start& start);
+  void start_near(const Pose2& pose, const GridGeometry& grid);
+  void start_anywhere(const BoundUpdate<Pose2>& z);
 
   Outcome take(const Event& event);
   Outcome take(const Odometry& odometry);
@@ -84,7 +86,9 @@ class MonteCarloLocalizer final : public Localizer {
   std::optional<StreamId> odometry_stream_;
   std::vector<LaserModels> laser_models_;  ///< per stream
   std::vector<std::string> stream_names_;
+  std::shared_ptr<const Executor> executor_;
   Filter filter_;
+  std::optional<GlobalStart> global_start_;  ///< until the first scan of a robot that may be anywhere
   Observer observer_;
 
   OdometryBuffer odometry_;

@@ -17,7 +17,7 @@ struct LikelihoodFieldOptions {
   double sigma_hit_m = 0.06;      ///< distance of end points to the mapped wall, standard deviation
   double max_distance_m = 2.0;    ///< distances beyond count as this one
   int max_beams = 60;             ///< evaluated beams, spread evenly over the valid ones; 0: all
-  double effective_beams = 60.0;  ///< a scan never counts for more than this many independent beams
+  double effective_beams = 20.0;  ///< a scan never counts for more than this many independent beams
 
   void visit(OptionVisitor& visitor);
 };
