@@ -14,7 +14,7 @@ namespace cairn {
 struct LikelihoodFieldOptions {
   double z_hit = 0.85;            ///< weight of "the beam ended at a wall of the map"
   double z_rand = 0.15;           ///< weight of "the beam ended anywhere"
-  double sigma_hit_m = 0.06;      ///< distance of end points to the mapped wall, standard deviation
+  double sigma_hit_m = 0.05;      ///< distance of end points to the mapped wall, standard deviation
   double max_distance_m = 2.0;    ///< distances beyond count as this one
   int max_beams = 60;             ///< evaluated beams, spread evenly over the valid ones; 0: all
   double effective_beams = 20.0;  ///< a scan never counts for more than this many independent beams
