@@ -38,7 +38,7 @@ class AmclReader final : public OptionVisitor {
     for (const std::string& key : names) {
       const YAML::Node& constant = parameters_;
       if (!constant[key]) continue;
-      YamlOptionReader reader(parameters_, name_);
+      YamlOptionReader reader(parameters_, {name_});
       read_from(reader, {key, field.documentation});
       taken_.insert(key);
     }
@@ -59,10 +59,11 @@ bool is_amcl_parameter_file(const YAML::Node& root) {
 void read_amcl_parameters(const YAML::Node& root, const std::string& name, const VisitOptions& visit,
                           Diagnostics& diagnostics) {
   const YAML::Node parameters = root["amcl"]["ros__parameters"];
+  refuse_duplicate_keys(parameters, {name});
   AmclReader reader(parameters, name);
   visit(reader);
   for (const auto& entry : parameters) {
-    const auto key = entry.first.as<std::string>();
+    const std::string& key = entry.first.Scalar();
     if (reader.taken().contains(key)) continue;
     diagnostics.warn("AMCL parameter without counterpart", yaml_place(name, entry.first.Mark()), key);
   }

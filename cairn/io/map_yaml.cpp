@@ -3,6 +3,7 @@
 #include "cairn/core/angle.hpp"
 #include "cairn/core/errors.hpp"
 #include "cairn/io/pose_collector.hpp"
+#include "cairn/io/yaml_document.hpp"
 
 #include <algorithm>
 #include <array>
@@ -154,7 +155,7 @@ std::array<OccupancyGrid::Cell, 256> cell_table(const MapDescription& map) {
 
 MapDescription read_map_description(std::istream& input, const std::string& name, Diagnostics& diagnostics) {
   try {
-    const MapYaml yaml(YAML::Load(input), name);
+    const MapYaml yaml(load_yaml(input), name);
     yaml.warn_of_unknown_keys(diagnostics);
     return describe(yaml);
   } catch (const YAML::Exception& error) {

@@ -1,37 +1,18 @@
 #include "cairn/io/yaml_option_reader.hpp"
 
 #include "cairn/core/errors.hpp"
+#include "cairn/io/option_suggestion.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 #include <sstream>
 
 namespace cairn {
 namespace {
 
-// Levenshtein: insertions, deletions and replacements that turn a into b.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-    }
-  }
-  return row.back();
-}
-
-std::string nearest(const std::string& key, const std::vector<std::string>& known) {
-  const auto closer = [&](const std::string& a, const std::string& b) {
-    return edit_distance(key, a) < edit_distance(key, b);
-  };
-  const auto best = std::min_element(known.begin(), known.end(), closer);
-  return best == known.end() ? "remove it" : "did you mean '" + *best + "'?";
+std::string place(const OptionSource& source, const YAML::Node& node) {
+  return source.has_lines ? yaml_place(source.name, node.Mark()) : source.name;
 }
 
 std::string range_text(Range range) {
@@ -47,11 +28,26 @@ std::string yaml_place(const std::string& name, const YAML::Mark& mark) {
   return name + ":" + std::to_string(mark.line + 1) + ":" + std::to_string(mark.column + 1);
 }
 
-YamlOptionReader::YamlOptionReader(const YAML::Node& node, std::string name)
-    : node_(node), name_(std::move(name)) {
-  if (node_.IsMap() || node_.IsNull()) return;
-  throw ConfigurationError(yaml_place(name_, node_.Mark()), "is no list of 'key: value' pairs",
-                           "write it as such");
+void refuse_duplicate_keys(const YAML::Node& mapping, const OptionSource& source) {
+  std::set<std::string> seen;
+  for (const auto& entry : mapping) {
+    if (!entry.first.IsScalar()) {
+      throw ConfigurationError(place(source, entry.first), "a key is no single word", "write 'key: value'");
+    }
+    if (!seen.insert(entry.first.Scalar()).second) {
+      throw ConfigurationError(place(source, entry.first),
+                               "key " + quoted(entry.first.Scalar()) + " stands twice", "remove one");
+    }
+  }
+}
+
+YamlOptionReader::YamlOptionReader(const YAML::Node& node, OptionSource source)
+    : node_(node), source_(std::move(source)) {
+  if (node_.IsNull()) return;
+  if (!node_.IsMap()) {
+    throw ConfigurationError(place(source_, node_), "is no list of 'key: value' pairs", "see `cairn config`");
+  }
+  refuse_duplicate_keys(node_, source_);
 }
 
 YAML::Node YamlOptionReader::find(const Field& field) {
@@ -63,7 +59,7 @@ YAML::Node YamlOptionReader::find(const Field& field) {
 
 void YamlOptionReader::fail(const YAML::Node& node, const Field& field, const std::string& what,
                             const std::string& remedy) const {
-  throw ConfigurationError(yaml_place(name_, node.Mark()), field.name + " " + what, remedy);
+  throw ConfigurationError(place(source_, node), field.name + " " + what, remedy);
 }
 
 double YamlOptionReader::read_number(const YAML::Node& node, const Field& field, Range range) const {
@@ -101,7 +97,7 @@ void YamlOptionReader::choice(const Field& field, std::string& value,
   if (!node) return;
   const std::string read = node.IsScalar() ? node.Scalar() : "";
   if (std::find(choices.begin(), choices.end(), read) == choices.end()) {
-    fail(node, field, "'" + read + "' is not known", nearest(read, choices));
+    fail(node, field, quoted(read) + " is not known", suggest(read, choices));
   }
   value = read;
 }
@@ -116,7 +112,8 @@ void YamlOptionReader::text(const Field& field, std::string& value) {
 void YamlOptionReader::section(const Field& field, const std::function<void(OptionVisitor&)>& visit) {
   const YAML::Node node = find(field);
   if (!node) return;
-  YamlOptionReader inner(node, name_);
+  require_group(node, field);
+  YamlOptionReader inner(node, source_);
   visit(inner);
   inner.refuse_unknown_keys();
 }
@@ -124,28 +121,32 @@ void YamlOptionReader::section(const Field& field, const std::function<void(Opti
 void YamlOptionReader::table(const Field& field, const std::vector<std::string>&,
                              const std::function<void(const std::string&, OptionVisitor&)>& visit_entry) {
   const YAML::Node node = find(field);
-  if (!node || node.IsNull()) return;
-  if (!node.IsMap()) fail(node, field, "is no list of 'name: options' pairs", "write it as such");
+  if (!node) return;
+  require_group(node, field);
+  refuse_duplicate_keys(node, source_);
   for (const auto& entry : node) {
-    YamlOptionReader inner(entry.second, name_);
-    visit_entry(entry.first.as<std::string>(), inner);
+    require_group(entry.second, {entry.first.Scalar(), ""});
+    YamlOptionReader inner(entry.second, source_);
+    visit_entry(entry.first.Scalar(), inner);
     inner.refuse_unknown_keys();
   }
 }
 
+// A group may be left empty in a file (`filter:` with all its lines commented out), not on the command line.
+void YamlOptionReader::require_group(const YAML::Node& node, const Field& field) const {
+  if (node.IsMap() || (node.IsNull() && source_.has_lines)) return;
+  fail(
+      node, field, "is a group of options, not a value",
+      source_.has_lines ? "indent its options below it" : "set one of them: " + field.name + ".option=value");
+}
+
 void YamlOptionReader::refuse_unknown_keys() const {
   if (!node_.IsMap()) return;
-  std::set<std::string> seen;
   for (const auto& entry : node_) {
-    const auto key = entry.first.IsScalar() ? entry.first.Scalar() : "?";
-    if (std::find(known_.begin(), known_.end(), key) == known_.end()) {
-      throw ConfigurationError(yaml_place(name_, entry.first.Mark()), "unknown key '" + key + "'",
-                               nearest(key, known_));
-    }
-    if (!seen.insert(key).second) {
-      throw ConfigurationError(yaml_place(name_, entry.first.Mark()), "key '" + key + "' stands twice",
-                               "remove one");
-    }
+    const std::string& key = entry.first.Scalar();
+    if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
+    throw ConfigurationError(place(source_, entry.first), "unknown key " + quoted(key),
+                             suggest(key, known_, source_.paths));
   }
 }
 

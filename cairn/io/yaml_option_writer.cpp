@@ -13,14 +13,26 @@ std::string number_text(double value) {
   return {text, result.ptr};
 }
 
+// Words that YAML takes for something else than text.
+bool is_reserved(const std::string& word) { return word == "null" || word == "Null" || word == "NULL"; }
+
+// One character of a double-quoted scalar. Bytes beyond ASCII stay as they are.
+std::string escaped(char c) {
+  static constexpr char kDigits[] = "0123456789abcdef";
+  const auto byte = static_cast<unsigned char>(c);
+  if (c == '"' || c == '\\') return {'\\', c};
+  if (byte < 0x20 || byte == 0x7f) return {'\\', 'x', kDigits[byte / 16], kDigits[byte % 16]};
+  return {c};
+}
+
 // Double-quoted where a plain scalar could be taken for something else.
 std::string scalar_text(const std::string& value) {
   const bool plain =
-      !value.empty() &&
+      !value.empty() && !is_reserved(value) &&
       value.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_") == std::string::npos;
   if (plain) return value;
   std::string quoted = "\"";
-  for (const char c : value) quoted += (c == '"' || c == '\\') ? std::string("\\") + c : std::string(1, c);
+  for (const char c : value) quoted += escaped(c);
   return quoted + "\"";
 }
 
