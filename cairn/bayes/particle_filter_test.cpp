@@ -294,6 +294,40 @@ TEST(ParticleFilter, KldShrinksAgainAndKeepsItsLimits) {
   EXPECT_GE(filter.particles().size(), 200u);
 }
 
+// Never compact before a measurement, always after it: all kinds of moves happen. Records their draws.
+struct RecordingKernel final : Regularization<Pose2> {
+  std::shared_ptr<std::vector<std::uint16_t>> draws;
+  bool compact = true;
+  bool fit(const ParticleSet<Pose2>& particles) override {
+    compact = particles.log_weights.front() != particles.log_weights.back() ? !compact : false;
+    return compact;
+  }
+  void move(std::span<Pose2>, const RandomStream&, std::uint16_t draw) const override {
+    draws->push_back(draw);
+  }
+};
+
+// The offsets of the combs are draw 0 of the same random stream.
+TEST(ParticleFilter, NoTwoMovesOrCombsOfAStepShareTheirRandomNumbers) {
+  auto kernel = std::make_unique<RecordingKernel>();
+  const auto draws = kernel->draws = std::make_shared<std::vector<std::uint16_t>>();
+  PoseFilter filter(std::make_shared<const NoisyMove>(), std::make_unique<FixedSize<Pose2>>(100),
+                    std::move(kernel), std::make_shared<const Executor>(), {1, 1.0, 0.5});
+  filter.initialize([](const RandomStream& random, std::uint32_t i) {
+    return Pose2{random.normal4(i)[0], 0, 0};
+  });
+  std::size_t most = 0;
+  for (int step = 0; step < 6; ++step) {
+    draws->clear();
+    filter.update(0.1, near_to({0, 0, 0}, 0.05));
+    const std::set<std::uint16_t> different(draws->begin(), draws->end());
+    EXPECT_EQ(different.size(), draws->size()) << step;
+    EXPECT_FALSE(different.contains(0)) << step;
+    most = std::max(most, draws->size());
+  }
+  EXPECT_GE(most, 2u);  // both kinds happened in one step
+}
+
 // --- Reproducibility.
 
 bool same_bytes(const PoseFilter& a, const PoseFilter& b) {
