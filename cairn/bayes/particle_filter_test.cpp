@@ -217,21 +217,21 @@ TEST(ParticleFilter, EffectiveSampleSizeAndWeightsAfterAMeasurement) {
 
 // --- Numbers of particles.
 
-// Asks for one more particle each time, up to 100.
-struct OneMore final : SampleSize<int> {
+// Asks for 10, 95, then 100 particles: the last batch is smaller than the smallest that the filter draws.
+struct NearlyMost final : SampleSize<int> {
   std::size_t total = 0;
   std::size_t begin() override { return total = 10; }
-  std::size_t wanted(std::span<const int>) override { return total = std::min<std::size_t>(total + 1, 100); }
+  std::size_t wanted(std::span<const int>) override { return total = total == 10 ? 95 : 100; }
   std::size_t most() const override { return 100; }
 };
 
 TEST(ParticleFilter, NeverHasMoreParticlesThanTheMost) {
-  ParticleFilter<int, int> filter(std::make_shared<const Stay>(), std::make_unique<OneMore>(), nullptr,
+  ParticleFilter<int, int> filter(std::make_shared<const Stay>(), std::make_unique<NearlyMost>(), nullptr,
                                   std::make_shared<const Executor>(), {});
   filter.initialize([](const RandomStream&, std::uint32_t i) { return static_cast<int>(i); });
   for (int i = 0; i < 3; ++i) {
     filter.update(0, measurement<int>([](const int& id) { return -0.1 * id; }));
-    EXPECT_LE(filter.particles().size(), 100u);
+    EXPECT_EQ(filter.particles().size(), 100u);
     EXPECT_EQ(filter.particles().log_weights.size(), filter.particles().size());
   }
 }
