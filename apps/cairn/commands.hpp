@@ -8,7 +8,7 @@ namespace cairn::app {
 
 /// Exit codes of the program: the contract that scripts rely on.
 inline constexpr int kOk = 0;
-inline constexpr int kFailed = 1;
+inline constexpr int kFailed = 1;  ///< anything else; also a run that Ctrl-C ended early, its results written
 inline constexpr int kUsage = 2;
 inline constexpr int kBadInput = 3;
 inline constexpr int kLost = 4;

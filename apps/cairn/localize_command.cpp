@@ -6,6 +6,7 @@
 #include "apps/cairn/progress.hpp"
 #include "apps/cairn/report_command.hpp"
 #include "apps/cairn/run_directory.hpp"
+#include "apps/cairn/seed_option.hpp"
 #include "cairn/core/angle.hpp"
 #include "cairn/core/errors.hpp"
 #include "cairn/io/configuration.hpp"
@@ -33,7 +34,7 @@ struct Arguments {
   std::string init_error = "0,0,0";
   bool global = false;
   std::string reference;
-  std::uint64_t seed = 1;
+  std::string seed = "1";
   int threads = 1;
   std::string out;
 };
@@ -67,6 +68,21 @@ std::vector<Time> scan_stamps(const Log& log) {
   return stamps;
 }
 
+// Before the work of a long run, not after it.
+void check_overlap(const std::string& path, const Trajectory& reference, const std::vector<Time>& scans) {
+  if (reference.empty() || scans.empty()) return;
+  const StampedPose& first = reference.front();
+  const StampedPose& last = reference.back();
+  if (first.stamp <= scans.back() && last.stamp >= scans.front()) return;
+  throw InputError(
+      path,
+      fmt::format(
+          "ends before the log's scans begin, or begins after they end ({} to {} s, scans {} to {} s)",
+          format_time(first.stamp), format_time(last.stamp), format_time(scans.front()),
+          format_time(scans.back())),
+      "give the reference of the same run, in the same clock");
+}
+
 Inputs read_inputs(const Arguments& arguments) {
   const auto started = std::chrono::steady_clock::now();
   Inputs inputs;
@@ -75,8 +91,9 @@ Inputs read_inputs(const Arguments& arguments) {
   inputs.log = read_log(arguments.log);
   sort_by_stamp(inputs.log);
   if (!arguments.reference.empty()) {
-    inputs.reference =
-        read_trajectory(arguments.reference, {.frame_stamps = scan_stamps(inputs.log)}, inputs.diagnostics);
+    const std::vector<Time> stamps = scan_stamps(inputs.log);
+    inputs.reference = read_trajectory(arguments.reference, {.frame_stamps = stamps}, inputs.diagnostics);
+    check_overlap(arguments.reference, *inputs.reference, stamps);
   }
   inputs.read_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return inputs;
@@ -98,12 +115,9 @@ Trajectory odometry_of(const Inputs& inputs) {
   return odometry;
 }
 
-// Where the reference says that the robot was at the first scan; where it begins later, taken back from its first
-// pose by the odometry.
+// Where the reference says that the robot was at the first scan; where it begins later, taken back from its
+// first pose by the odometry.
 Pose2 reference_start(const Inputs& inputs) {
-  if (!inputs.reference || inputs.reference->empty()) {
-    throw ConfigurationError("--init reference", "there is no reference", "give one with --reference");
-  }
   const std::vector<Time> stamps = scan_stamps(inputs.log);
   if (stamps.empty()) return inputs.reference->front().pose;
   if (const auto pose = pose_at(*inputs.reference, stamps.front())) return *pose;
@@ -143,7 +157,7 @@ LocalizeResult run_with_progress(const Arguments& arguments, const Inputs& input
                    .map = inputs.map,
                    .options = inputs.options,
                    .start = choose_start(arguments, inputs),
-                   .seed = arguments.seed,
+                   .seed = parse_seed("--seed", arguments.seed),
                    .threads = arguments.threads,
                    .go_on = [&](std::int64_t done) {
                      progress.update(done);
@@ -151,14 +165,29 @@ LocalizeResult run_with_progress(const Arguments& arguments, const Inputs& input
                    }});
 }
 
-int run_localize(const Arguments& arguments) {
+// What can be refused before anything is read.
+void check_arguments(const Arguments& arguments) {
   check_run_directory(arguments.out);
+  parse_seed("--seed", arguments.seed);
+  if (arguments.threads < 1 || arguments.threads > Executor::kMostThreads) {
+    throw ConfigurationError("--threads", "is " + std::to_string(arguments.threads),
+                             "use 1 to " + std::to_string(Executor::kMostThreads));
+  }
+  if (!arguments.init.empty() && arguments.init != "reference") parse_pose("--init", arguments.init);
+  if (arguments.init == "reference" && arguments.reference.empty()) {
+    throw ConfigurationError("--init reference", "there is no reference", "give one with --reference");
+  }
+  parse_pose("--init-error", arguments.init_error);
+}
+
+int run_localize(const Arguments& arguments) {
+  check_arguments(arguments);
   Inputs inputs = read_inputs(arguments);
   const LocalizeResult result = run_with_progress(arguments, inputs);
   const RunSummary summary =
       summarize_run({.log_path = arguments.log,
                      .map_path = arguments.map,
-                     .seed = arguments.seed,
+                     .seed = parse_seed("--seed", arguments.seed),
                      .threads = arguments.threads,
                      .read_s = inputs.read_s},
                     inputs.log, *inputs.map, inputs.options, inputs.reference, inputs.diagnostics, result);
@@ -166,7 +195,10 @@ int run_localize(const Arguments& arguments) {
   const std::string no_report = write_report(arguments.out);
   if (!no_report.empty()) spdlog::warn("no report.html: {}", no_report);
   std::cout << summary.text << "written to " << arguments.out << "\n";
-  if (result.interrupted) spdlog::warn("interrupted: this is what was computed until then");
+  if (result.interrupted) {
+    spdlog::warn("interrupted: this is what was computed until then");
+    return kFailed;
+  }
   if (summary.lost) spdlog::error("the run ended lost: {}", summary.reason);
   return summary.lost ? kLost : kOk;
 }

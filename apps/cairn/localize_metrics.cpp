@@ -4,6 +4,7 @@
 #include "cairn/core/errors.hpp"
 #include "cairn/eval/score.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 #include <spdlog/fmt/fmt.h>
@@ -107,6 +108,13 @@ std::string lost_by_reference(const Score& score) {
                      100 * score.lost.bad_share, score.lost.ends_lost ? ", the last ones too" : "");
 }
 
+// An interrupted run may end before its reference begins.
+bool any_inside(const Trajectory& reference, const Trajectory& estimate) {
+  return !estimate.empty() && std::any_of(reference.begin(), reference.end(), [&](const StampedPose& p) {
+    return p.stamp >= estimate.front().stamp && p.stamp <= estimate.back().stamp;
+  });
+}
+
 Trajectory trajectory_of(const std::vector<Estimate>& estimates) {
   Trajectory trajectory;
   for (const Estimate& estimate : estimates) trajectory.push_back({estimate.stamp, estimate.T_map_base});
@@ -140,8 +148,11 @@ RunSummary summarize_run(const RunContext& context, const Log& log, const Occupa
        {"timings", timings_json(context, log, result)},
        {"peak_memory_bytes", peak_memory_bytes()},
        {"warnings", warnings_json({&log.diagnostics, &input_diagnostics, &result.diagnostics})}};
-  if (reference && !result.estimates.empty()) {
-    const Score measured = score(*reference, trajectory_of(result.estimates));
+  const Trajectory trajectory = trajectory_of(result.estimates);
+  if (reference && !any_inside(*reference, trajectory)) {
+    m["warnings"]["no reference pose inside the estimates: no accuracy"] = 1;
+  } else if (reference) {
+    const Score measured = score(*reference, trajectory);
     m["accuracy"] = accuracy_json(measured);
     summary.lost = measured.lost.lost;
     if (summary.lost) summary.reason = lost_by_reference(measured);

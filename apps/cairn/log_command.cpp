@@ -24,7 +24,7 @@ int run_info(const Arguments& arguments) {
 
 void add_log(CLI::App& program, Runner& run) {
   auto* command = program.add_subcommand("log", "Look into logs");
-  command->require_subcommand(1);
+  command->require_subcommand(0, 1);
   auto* info = command->add_subcommand("info", "What a log holds: streams, rates, gaps, anomalies");
   auto a = std::make_shared<Arguments>();
   info->add_option("LOG", a->log,

@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
 
   CLI::App program("Cairn tells a mobile robot where it is", "cairn");
   program.set_version_flag("--version", CAIRN_VERSION);
-  program.require_subcommand(1);
+  program.require_subcommand(0, 1);  // none: refused below; an unknown one is named by CLI11
   cairn::app::Runner run;
   cairn::app::add_config(program, run);
   cairn::app::add_localize(program, run);
@@ -47,6 +47,10 @@ int main(int argc, char** argv) {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? cairn::app::kOk : cairn::app::kUsage;
+  }
+  if (!run) {
+    spdlog::error("a subcommand is missing; see `cairn --help`");
+    return cairn::app::kUsage;
   }
   return run_and_report(run);
 }

@@ -180,7 +180,7 @@ void add_info(CLI::App& parent, Runner& run) {
 
 void add_map(CLI::App& program, Runner& run) {
   auto* command = program.add_subcommand("map", "Make and inspect maps");
-  command->require_subcommand(1);
+  command->require_subcommand(0, 1);
   add_build(*command, run);
   add_info(*command, run);
 }

@@ -14,7 +14,7 @@ constexpr double kRedraw_s = 0.1;
 constexpr int kBarWidth = 30;
 
 std::string time_left(std::int64_t done, std::int64_t total, double elapsed_s) {
-  if (done <= 0) return "";
+  if (done <= 0 || done >= total) return "";
   const double left_s = elapsed_s * static_cast<double>(total - done) / static_cast<double>(done);
   return left_s < 90.0 ? fmt::format("{:.0f} s left", left_s) : fmt::format("{:.0f} min left", left_s / 60.0);
 }
@@ -51,7 +51,8 @@ void Progress::print_line(std::int64_t done, double elapsed_s) {
   const int tenth = static_cast<int>(10 * done / total_);
   if (tenth <= last_tenth_) return;
   last_tenth_ = tenth;
-  fmt::print(stderr, "{}: {} %, {}\n", label_, 10 * tenth, time_left(done, total_, elapsed_s));
+  const std::string left = time_left(done, total_, elapsed_s);
+  fmt::print(stderr, "{}: {} %{}\n", label_, 10 * tenth, left.empty() ? "" : ", " + left);
 }
 
 }  // namespace cairn::app

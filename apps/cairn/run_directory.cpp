@@ -9,6 +9,8 @@
 #include <iterator>
 #include <system_error>
 
+#include <unistd.h>
+
 namespace cairn::app {
 namespace {
 
@@ -62,9 +64,25 @@ void publish(const fs::path& stage, const fs::path& directory) {
   fs::remove_all(stage);
 }
 
+// The nearest folder above that exists is where a new one must be made.
+void check_parent(const fs::path& directory) {
+  fs::path parent = fs::absolute(directory);
+  while (!fs::exists(fs::status(parent)) && parent.has_relative_path()) parent = parent.parent_path();
+  if (!fs::is_directory(parent)) {
+    if (parent == fs::absolute(directory)) return;  // said better by the caller
+    throw ConfigurationError(directory.string(), parent.string() + " is a file, not a folder",
+                             "choose another --out");
+  }
+  if (access(parent.c_str(), W_OK | X_OK) != 0) {
+    throw ConfigurationError(directory.string(), "may not be written to", "choose another --out");
+  }
+}
+
 }  // namespace
 
 void check_run_directory(const fs::path& directory) {
+  if (directory.empty()) throw ConfigurationError("--out", "is empty", "name a folder");
+  check_parent(directory);
   if (!fs::exists(directory)) return;
   if (!fs::is_directory(directory)) {
     throw ConfigurationError(directory.string(), "is a file, not a folder", "choose another --out");

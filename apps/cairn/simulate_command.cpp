@@ -1,4 +1,5 @@
 #include "apps/cairn/commands.hpp"
+#include "apps/cairn/seed_option.hpp"
 #include "cairn/core/errors.hpp"
 #include "cairn/io/carmen_writer.hpp"
 #include "cairn/io/map_yaml.hpp"
@@ -20,7 +21,7 @@ constexpr double kLongest_s = 3600.0;
 struct Arguments {
   std::string world;
   std::string out;
-  std::uint64_t seed = 1;
+  std::string seed = "1";
   double duration_s = 0.0;
 };
 
@@ -43,7 +44,7 @@ std::filesystem::path beside(const std::filesystem::path& log, const char* endin
 
 int run_simulate(const Arguments& arguments) {
   const std::filesystem::path log = arguments.out;
-  OfficeRecording recording = record_office(check(arguments), arguments.seed);
+  OfficeRecording recording = record_office(check(arguments), parse_seed("--seed", arguments.seed));
   write_carmen_log(log, {"", recording.streams, std::move(recording.events), {}});
   write_tum(beside(log, ".truth.tum"), recording.truth);
   write_map(beside(log, ".map.yaml"), recording.map);

@@ -22,8 +22,9 @@ struct Executor::Pool {
 };
 
 Executor::Executor(int threads) : threads_(threads) {
-  if (threads < 1) {
-    throw ConfigurationError("threads", "is " + std::to_string(threads), "use 1 or more");
+  if (threads < 1 || threads > kMostThreads) {
+    throw ConfigurationError("threads", "is " + std::to_string(threads),
+                             "use 1 to " + std::to_string(kMostThreads));
   }
   if (threads > 1) pool_ = std::make_unique<Pool>(threads);
 }

@@ -12,7 +12,10 @@ namespace cairn {
 /// to its own place is the same for any number of threads.
 class Executor {
  public:
-  /// @param threads 1 runs in the caller; more uses a pool of that size. @throws ConfigurationError below 1.
+  static constexpr int kMostThreads = 256;
+
+  /// @param threads 1 runs in the caller; more uses a pool of that size.
+  /// @throws ConfigurationError below 1 and beyond kMostThreads
   explicit Executor(int threads = 1);
   ~Executor();
   Executor(const Executor&) = delete;

@@ -82,5 +82,11 @@ TEST(Executor, AChunkOfNothingIsABug) {
   EXPECT_THROW(Executor(1).for_each_chunk(10, 0, [](std::size_t, std::size_t) {}), std::logic_error);
 }
 
+TEST(Executor, RefusesNumbersOfThreadsThatNoMachineHas) {
+  for (const int threads : {-1, 0, Executor::kMostThreads + 1, 100'000}) {
+    EXPECT_THROW(Executor{threads}, ConfigurationError) << threads;
+  }
+}
+
 }  // namespace
 }  // namespace cairn

@@ -69,11 +69,6 @@ YAML::Node parse_setting(const std::string& setting, const std::string& name) {
   return nested(key, setting.substr(equals + 1));
 }
 
-std::string setting_name(const std::string& setting) {
-  const std::string text = quoted(setting);
-  return "--set " + text.substr(1, text.size() - 2);
-}
-
 }  // namespace
 
 void read_configuration(std::istream& input, const std::string& name, const VisitOptions& visit,
@@ -86,19 +81,20 @@ void read_configuration(std::istream& input, const std::string& name, const Visi
     visit(reader);
     reader.refuse_unknown_keys();
   } catch (const YAML::Exception& error) {
-    throw ConfigurationError(yaml_place(name, error.mark), error.msg, "correct the YAML");
+    throw ConfigurationError(yaml_place(name, error.mark), "cannot be read as YAML: " + printable(error.msg),
+                             "correct it");
   }
 }
 
 void apply_settings(const std::vector<std::string>& settings, const VisitOptions& visit) {
   for (const std::string& setting : settings) {
-    const std::string name = setting_name(setting);
+    const std::string name = "--set " + printable(setting);
     try {
       YamlOptionReader reader(parse_setting(setting, name), {name, false, paths_of(visit)});
       visit(reader);
       reader.refuse_unknown_keys();
     } catch (const YAML::Exception& error) {
-      throw ConfigurationError(name, error.msg, "correct the value");
+      throw ConfigurationError(name, "cannot be read as YAML: " + printable(error.msg), "correct the value");
     }
   }
 }

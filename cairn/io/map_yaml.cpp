@@ -2,6 +2,7 @@
 
 #include "cairn/core/angle.hpp"
 #include "cairn/core/errors.hpp"
+#include "cairn/io/option_suggestion.hpp"
 #include "cairn/io/pose_collector.hpp"
 #include "cairn/io/yaml_document.hpp"
 
@@ -161,7 +162,7 @@ MapDescription read_map_description(std::istream& input, const std::string& name
   } catch (const YAML::Exception& error) {
     throw InputError(
         name + ":" + std::to_string(error.mark.line + 1) + ":" + std::to_string(error.mark.column + 1),
-        "is not YAML: " + error.msg, "name the map's .yaml file");
+        "is not YAML: " + printable(error.msg), "name the map's .yaml file");
   }
 }
 

@@ -54,9 +54,9 @@ std::string suggest(const std::string& key, const std::vector<std::string>& know
   return all;
 }
 
-std::string quoted(const std::string& text) {
+std::string printable(const std::string& text) {
   static constexpr char kDigits[] = "0123456789abcdef";
-  std::string result = "'";
+  std::string result;
   for (const char c : text.substr(0, kLongest)) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte >= 0x20 && byte < 0x7f) {
@@ -65,7 +65,9 @@ std::string quoted(const std::string& text) {
       result += {'\\', 'x', kDigits[byte / 16], kDigits[byte % 16]};
     }
   }
-  return result + (text.size() > kLongest ? "...'" : "'");
+  return result + (text.size() > kLongest ? "..." : "");
 }
+
+std::string quoted(const std::string& text) { return "'" + printable(text) + "'"; }
 
 }  // namespace cairn

@@ -10,7 +10,9 @@ namespace cairn {
 std::string suggest(const std::string& key, const std::vector<std::string>& known,
                     const std::vector<std::string>& paths = {});
 
-/// `text` between quotes, fit for a message: what is not printable ASCII as \xNN, at most 60 characters.
+/// `text` fit for a message: what is not printable ASCII as \xNN, at most its first 60 characters.
+std::string printable(const std::string& text);
+/// The same between quotes.
 std::string quoted(const std::string& text);
 
 }  // namespace cairn

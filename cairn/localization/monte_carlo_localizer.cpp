@@ -53,7 +53,8 @@ void MonteCarloLocalizer::start_near(const Pose2& pose, const GridGeometry& grid
   const bool on_map =
       is_finite(pose) && cell.x >= 0.0 && cell.x < grid.width && cell.y >= 0.0 && cell.y < grid.height;
   if (!on_map) {
-    throw ConfigurationError("start pose", "lies off the map", "give x and y in metres, in the map's frame");
+    throw ConfigurationError("start pose", "lies off the map",
+                             "give x and y in metres, in the map's frame (see `cairn map info`)");
   }
   filter_.initialize([&](const RandomStream& random, std::uint32_t i) {
     return sample_near(pose, options_.initial, random, i);

@@ -1,0 +1,339 @@
+#!/usr/bin/env python3
+"""Runs the cairn program as a user, and as somebody who means no good, would.
+
+usage: tests/e2e/cli_test.py CAIRN [unittest arguments]
+"""
+
+import filecmp
+import gzip
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+OK, FAILED, USAGE, BAD_INPUT, LOST = 0, 1, 2, 3, 4
+START = "1,1.2,0"
+SUBCOMMANDS = [[], ["config"], ["localize"], ["log"], ["log", "info"], ["map"], ["map", "build"], ["map", "info"],
+               ["report"], ["score"], ["simulate"]]
+# "error: where: what; what to do", or a sentence about the run.
+SENTENCE = re.compile(r"^error: \S.*\S$", re.MULTILINE)
+
+
+def cairn(*arguments, where):
+    return subprocess.run([PROGRAM, *map(str, arguments)], cwd=where, capture_output=True, text=True, timeout=120)
+
+
+class CliTest(unittest.TestCase):
+    """All tests share one simulated office; each writes into folders of its own."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory(prefix="cairn_cli_")
+        cls.folder = Path(cls.temporary.name)
+        assert cairn("simulate", "office", "--duration", "30", "--out", "a.log", where=cls.folder).returncode == OK
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def run_cairn(self, *arguments):
+        return cairn(*arguments, where=self.folder)
+
+    def localize(self, *more, log="a.log", map_="a.map.yaml", init=START, out=None):
+        start = ["--init", init] if init else []
+        return self.run_cairn("localize", "--map", map_, "--log", log, *start, "--out", out or self.id(), *more)
+
+    def write(self, name, content):
+        path = self.folder / name
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        return name
+
+    def assert_refused(self, result, code, *words):
+        self.assertEqual(result.returncode, code, result.stderr)
+        self.assertRegex(result.stderr, SENTENCE)
+        self.assertEqual(result.stdout, "", "a refusal is no result")
+        for word in words:
+            self.assertIn(word, result.stderr)
+
+    def metrics(self, out=None):
+        return json.loads((self.folder / (out or self.id()) / "metrics.json").read_text())
+
+
+class Usage(CliTest):
+    def test_help_of_every_subcommand(self):
+        for words in SUBCOMMANDS:
+            result = self.run_cairn(*words, "--help")
+            self.assertEqual(result.returncode, OK, words)
+            self.assertIn("Usage:", result.stdout)
+            self.assertEqual(result.stderr, "")
+
+    def test_version(self):
+        result = self.run_cairn("--version")
+        self.assertEqual(result.returncode, OK)
+        self.assertRegex(result.stdout, r"^\d+\.\d+\.\d+\n$")
+
+    def test_a_missing_subcommand(self):
+        for words in [[], ["log"], ["map"]]:
+            self.assert_refused(self.run_cairn(*words), USAGE, "a subcommand is missing")
+
+    def test_unknown_words_are_named(self):
+        for words in [["nonsense"], ["log", "nonsense"], ["map", "nonsense"]]:
+            result = self.run_cairn(*words)
+            self.assertEqual(result.returncode, USAGE)
+            self.assertIn("nonsense", result.stderr)
+        result = self.localize("--bogus")
+        self.assertEqual(result.returncode, USAGE)
+        self.assertIn("--bogus", result.stderr)
+
+    def test_arguments_that_exclude_or_need_others(self):
+        self.assertEqual(self.localize("--global").returncode, USAGE)
+        self.assertEqual(self.localize("--init-error", "1,0,0", init=None).returncode, USAGE)
+        self.assertEqual(self.run_cairn("localize", "--log", "a.log").returncode, USAGE)
+
+    def test_threads(self):
+        for threads in ["0", "-1", "257", "100000"]:
+            self.assert_refused(self.localize("--threads", threads), USAGE, "threads")
+        for threads in ["two", "1.5", "99999999999"]:
+            self.assertEqual(self.localize("--threads", threads).returncode, USAGE)
+
+    def test_seed(self):
+        for seed in ["18446744073709551616", "-1", "1.5", "0x1", "many"]:
+            self.assert_refused(self.localize("--seed", seed), USAGE, "--seed")
+            self.assert_refused(self.run_cairn("simulate", "office", "--seed", seed, "--out", "s.log"), USAGE, "--seed")
+        self.assertEqual(self.localize("--seed", "18446744073709551615").returncode, OK)
+        self.assertEqual(self.metrics()["seed"], 18446744073709551615)
+
+    def test_start_pose(self):
+        self.assert_refused(self.localize(init="1000,1,0"), USAGE, "off the map", "cairn map info")
+        for init in ["here", "1,1.2", "1,1.2,0,0", "nan,1,0", "1e400,1,0", "1;1;0"]:
+            self.assert_refused(self.localize(init=init), USAGE, "--init", "is not a pose")
+        self.assert_refused(self.localize(init="reference"), USAGE, "give one with --reference")
+        self.assert_refused(self.localize("--init-error", "far"), USAGE, "--init-error")
+
+
+class Configuration(CliTest):
+    def test_unknown_keys_name_the_nearest(self):
+        self.assert_refused(self.localize("--set", "filter.max_particle=9"), USAGE, "did you mean 'max_particles'?")
+        self.assert_refused(self.localize("--set", "max_particles=9"), USAGE, "did you mean 'filter.max_particles'?")
+        name = self.write("bad.yaml", "filter:\n  max_particle: 9\n")
+        self.assert_refused(self.localize("--config", name), USAGE, "bad.yaml:2:3", "'max_particles'")
+
+    def test_bad_values(self):
+        for setting in ["filter.max_particles=0", "filter.max_particles=1e12", "filter.max_particles=many",
+                        "laser.z_hit=.nan", "update.min_translation_m=.inf", "filter=3", "filter", "=", "a.b.c=[",
+                        "filter.min_particles=5000000", "recipe=magic", "odometry_stream=wheels", "streams.lazer.use=true"]:
+            with self.subTest(setting):
+                self.assert_refused(self.localize("--set", setting), USAGE)
+
+    def test_configuration_files_that_are_none(self):
+        self.assert_refused(self.localize("--config", "nowhere.yaml"), BAD_INPUT, "no such file")
+        self.assert_refused(self.localize("--config", "."), BAD_INPUT, "is a directory")
+        self.assert_refused(self.localize("--config", "a.log"), USAGE, "a.log:")
+        self.assert_refused(self.localize("--config", "a.map.png"), USAGE, "a.map.png")
+        self.assert_refused(self.localize("--config", self.write("deep.yaml", "[" * 100000)), USAGE, "deep.yaml")
+        self.assert_refused(self.localize("--config", self.write("big.yaml", "#" * (2 << 20))), USAGE, "big.yaml")
+
+    def test_what_config_prints_is_accepted_and_printed_again(self):
+        settings = ["--set", "filter.max_particles=777", "--set", "streams.laser.use=true", "--set", "laser.z_hit=0.7"]
+        first = self.run_cairn("config", "mcl", *settings)
+        self.assertEqual(first.returncode, OK)
+        self.assertEqual(first.stderr, "")
+        name = self.write("printed.yaml", first.stdout)
+        self.assertEqual(self.run_cairn("config", "--config", name).stdout, first.stdout)
+        self.assert_refused(self.run_cairn("config", "nonsense"), USAGE, "recipe", "mcl, kld_mcl")
+
+    def test_the_run_keeps_its_configuration(self):
+        self.assertEqual(self.localize("--set", "filter.max_particles=777").returncode, OK)
+        again = self.run_cairn("config", "--config", f"{self.id()}/config.yaml")
+        self.assertEqual(again.stdout, (self.folder / self.id() / "config.yaml").read_text())
+        self.assertIn("max_particles: 777", again.stdout)
+
+    def test_nav2_parameters(self):
+        name = self.write("nav2.yaml", NAV2)
+        result = self.run_cairn("config", "--config", name)
+        self.assertEqual(result.returncode, OK, result.stderr)
+        for line in ["alpha1: 0.15", "max_particles: 2500", "min_particles: 400", "max_beams: 90", "sigma_hit_m: 0.21",
+                     "max_distance_m: 1.75", "min_translation_m: 0.26", "min_rotation_rad: 0.22", "z_hit: 0.51",
+                     "z_rand: 0.49", "epsilon: 0.055"]:
+            self.assertIn(line, result.stdout)
+        self.assertIn("AMCL parameter without counterpart", result.stderr)
+        self.assertEqual(self.localize("--config", name).returncode, OK)
+        self.assertEqual(self.metrics()["warnings"]["AMCL parameter without counterpart"], 24)
+
+
+class Files(CliTest):
+    def test_maps_that_are_none(self):
+        self.assert_refused(self.localize(map_="nowhere.yaml"), BAD_INPUT, "nowhere.yaml: no such file")
+        self.assert_refused(self.localize(map_="."), BAD_INPUT, "is a directory")
+        self.assert_refused(self.localize(map_="a.map.png"), BAD_INPUT, "bare picture", ".yaml")
+        pgm = self.write("bare.pgm", b"P5\n2 2\n255\n\0\0\0\0")
+        self.assert_refused(self.localize(map_=pgm), BAD_INPUT, "bare picture", ".yaml")
+        self.assert_refused(self.localize(map_="a.log"), BAD_INPUT, "a.log")
+        lost = self.write("lost.yaml", "image: nowhere.png\nresolution: 0.05\norigin: [0, 0, 0]\n")
+        self.assert_refused(self.localize(map_=lost), BAD_INPUT, "nowhere.png: no such file")
+        self.write("cut.png", (self.folder / "a.map.png").read_bytes()[:500])
+        cut = self.write("cut.yaml", "image: cut.png\nresolution: 0.05\norigin: [0, 0, 0]\n")
+        self.assert_refused(self.localize(map_=cut), BAD_INPUT, "cut.png")
+
+    def test_logs_that_are_none(self):
+        whole = gzip.compress((self.folder / "a.log").read_bytes())
+        self.assert_refused(self.localize(log=self.write("cut.log.gz", whole[: len(whole) // 2])), BAD_INPUT, "cut short")
+        self.assert_refused(self.localize(log=self.write("empty.log", "")), BAD_INPUT, "empty.log: is empty")
+        self.assert_refused(self.localize(log=self.write("words.log", "hello\n")), BAD_INPUT, "no log of a known format")
+        self.assert_refused(self.localize(log=self.write("noise.log", os.urandom(50000))), BAD_INPUT, "known format")
+        self.assert_refused(self.localize(log="nowhere.log"), BAD_INPUT, "no such file")
+        self.assert_refused(self.localize(log="."), BAD_INPUT, "is a directory")
+
+    def test_a_packed_log(self):
+        self.write("whole.log.gz", gzip.compress((self.folder / "a.log").read_bytes()))
+        self.assertEqual(self.localize(log="whole.log.gz").returncode, OK)
+
+    def test_a_log_without_scans(self):
+        lines = (self.folder / "a.log").read_text().splitlines()
+        kept = "\n".join(line for line in lines if "LASER" not in line)
+        self.assert_refused(self.localize(log=self.write("blind.log", kept)), USAGE, "no laser stream")
+
+    def test_out(self):
+        self.assert_refused(self.localize(out="a.log"), USAGE, "a.log", "is a file")
+        self.assert_refused(self.localize(out="a.log/below"), USAGE, "is a file")
+        self.assert_refused(self.run_cairn("localize", "--map", "a.map.yaml", "--log", "a.log", "--out", ""), USAGE, "--out")
+        foreign = self.folder / "foreign"
+        foreign.mkdir()
+        (foreign / "letter.txt").write_text("mine")
+        self.assert_refused(self.localize(out="foreign"), USAGE, "foreign", "choose an empty or new folder")
+        self.assertEqual((foreign / "letter.txt").read_text(), "mine")
+        self.assertEqual(self.localize(out="new/and/deep").returncode, OK)
+
+    def test_references(self):
+        rows = [line.split() for line in (self.folder / "a.truth.tum").read_text().splitlines() if line[0] != "#"]
+        late = "".join(f"{float(row[0]) + 1e6:.6f} {' '.join(row[1:])}\n" for row in rows)
+        self.write("late.tum", late)
+        self.assert_refused(self.localize("--reference", "late.tum"), BAD_INPUT, "late.tum", "same clock")
+        self.assertFalse((self.folder / self.id()).exists())
+        self.assert_refused(self.localize("--reference", "nowhere.tum"), BAD_INPUT, "no such file")
+        result = self.run_cairn("score", "--reference", "late.tum", "--estimate", "a.truth.tum")
+        self.assert_refused(result, BAD_INPUT, "no reference stamp")
+
+    def test_reports_of_no_run(self):
+        for name in ["nowhere", "a.log", "."]:
+            self.assert_refused(self.run_cairn("report", name), BAD_INPUT)
+
+
+class Runs(CliTest):
+    def test_tracking_and_its_files(self):
+        result = self.localize("--reference", "a.truth.tum", init="reference")
+        self.assertEqual(result.returncode, OK, result.stderr)
+        self.assertIn("belief    tracking", result.stdout)
+        self.assertEqual(result.stderr, "", "nothing to say about a short run without trouble")
+        for name in ["trajectory.tum", "estimate.csv", "metrics.json", "config.yaml", "map.yaml", "map.png"]:
+            self.assertTrue((self.folder / self.id() / name).is_file(), name)
+        metrics = self.metrics()
+        self.assertLess(metrics["accuracy"]["ate_mean_m"], 0.06)
+        self.assertLess(metrics["accuracy"]["ate_max_m"], 0.25)
+        self.assertFalse(metrics["interrupted"])
+        for stream in metrics["log"]["streams"]:
+            self.assertEqual(sum(metrics["outcomes"][stream["name"]].values()), stream["messages"])
+        scan = next(s for s in metrics["log"]["streams"] if s["kind"] == "laser_scan")
+        self.assertEqual(scan["messages"], 301)
+
+    def test_the_same_bytes_again_and_for_any_number_of_threads(self):
+        names = ["first", "again", "two", "seven"]
+        for name, threads in zip(names, [1, 1, 2, 7]):
+            self.assertEqual(self.localize("--threads", str(threads), out=name).returncode, OK)
+        for name in names[1:]:
+            for file in ["trajectory.tum", "estimate.csv", "particles.csv"]:
+                same = filecmp.cmp(self.folder / "first" / file, self.folder / name / file, shallow=False)
+                self.assertTrue(same, f"{name}/{file}")
+
+    def test_a_map_of_another_world_ends_lost(self):
+        rows = [bytes(400) if row in (0, 399) else b"\0" + b"\xff" * 398 + b"\0" for row in range(400)]
+        self.write("hall.pgm", b"P5\n400 400\n255\n" + b"".join(rows))
+        hall = self.write("hall.yaml", "image: hall.pgm\nresolution: 0.05\norigin: [0, 0, 0]\n")
+        result = self.localize(map_=hall, init="10,10,0")
+        self.assertEqual(result.returncode, LOST, result.stdout)
+        self.assertIn("the run ended lost: ", result.stderr)
+        self.assertTrue((self.folder / self.id() / "trajectory.tum").is_file())
+        self.assertEqual(self.metrics()["verdict"], "lost")
+
+    def test_an_interrupted_run_keeps_what_it_has_and_says_so(self):
+        command = [PROGRAM, "localize", "--map", "a.map.yaml", "--log", "a.log", "--init", START, "--out", self.id(),
+                   "--reference", "a.truth.tum", "--set", "recipe=mcl", "--set", "filter.particles=300000",
+                   "--set", "update.min_translation_m=0", "--set", "laser.max_beams=180"]
+        with subprocess.Popen(command, cwd=self.folder, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as run:
+            self.assertRegex(run.stderr.readline(), r"^localizing: 10 %, \d+ (s|min) left$", "progress of long work")
+            run.send_signal(signal.SIGINT)
+            output, talk = run.communicate(timeout=60)
+        self.assertEqual(run.returncode, FAILED, talk)
+        self.assertIn("interrupted", talk)
+        self.assertIn("written to", output)
+        self.assertTrue(self.metrics()["interrupted"])
+        poses = (self.folder / self.id() / "trajectory.tum").read_text().splitlines()
+        self.assertGreater(len(poses), 20)
+        self.assertLess(len(poses), 301)
+
+    def test_json_is_json(self):
+        self.assertEqual(self.localize().returncode, OK)
+        estimate = f"{self.id()}/trajectory.tum"
+        score = self.run_cairn("score", "--reference", "a.truth.tum", "--estimate", estimate, "--json")
+        self.assertEqual(score.returncode, OK)
+        self.assertLess(json.loads(score.stdout)["bad_share"], 0.01)
+        self.assertEqual(json.loads(self.run_cairn("map", "info", "a.map.yaml", "--json").stdout)["resolution_m"], 0.05)
+        json.loads(self.run_cairn("log", "info", "a.log", "--json").stdout)
+
+
+NAV2 = """amcl:
+  ros__parameters:
+    use_sim_time: True
+    alpha1: 0.15
+    alpha2: 0.25
+    alpha3: 0.2
+    alpha4: 0.2
+    alpha5: 0.2
+    base_frame_id: "base_footprint"
+    beam_skip_distance: 0.5
+    beam_skip_error_threshold: 0.9
+    beam_skip_threshold: 0.3
+    do_beamskip: false
+    global_frame_id: "map"
+    lambda_short: 0.1
+    laser_likelihood_max_dist: 1.75
+    laser_max_range: 100.0
+    laser_min_range: -1.0
+    laser_model_type: "likelihood_field"
+    max_beams: 90
+    max_particles: 2500
+    min_particles: 400
+    odom_frame_id: "odom"
+    pf_err: 0.055
+    pf_z: 0.99
+    recovery_alpha_fast: 0.0
+    recovery_alpha_slow: 0.0
+    resample_interval: 1
+    robot_model_type: "nav2_amcl::DifferentialMotionModel"
+    save_pose_rate: 0.5
+    sigma_hit: 0.21
+    tf_broadcast: true
+    transform_tolerance: 1.0
+    update_min_a: 0.22
+    update_min_d: 0.26
+    z_hit: 0.51
+    z_max: 0.05
+    z_rand: 0.49
+    z_short: 0.05
+    scan_topic: scan
+
+bt_navigator:
+  ros__parameters:
+    global_frame: map
+"""
+
+if __name__ == "__main__":
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    PROGRAM = os.path.abspath(sys.argv.pop(1))
+    unittest.main()
