@@ -10,7 +10,7 @@ namespace cairn {
 /// share.
 struct DifferentialDriveOptions {
   double alpha1 = 0.2;         ///< rotation noise from rotation, rad^2 per rad^2
-  double alpha2 = 0.2;         ///< rotation noise from translation, rad^2 per m^2
+  double alpha2 = 0.3;         ///< rotation noise from translation, rad^2 per m^2
   double alpha3 = 0.05;        ///< translation noise from translation, m^2 per m^2
   double alpha4 = 0.2;         ///< translation noise from rotation, m^2 per rad^2
   double sigma_min_m = 0.0;    ///< standard deviation of the position that every move adds, metres
