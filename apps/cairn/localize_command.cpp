@@ -222,6 +222,10 @@ void add_localize(CLI::App& program, Runner& run) {
   command->add_option("--threads", a->threads, "Changes the time taken, never the results")
       ->capture_default_str();
   command->add_option("--out", a->out, "Folder for the results")->required();
+  command->footer(
+      "Exit code: 0 tracking to the end, 4 lost at the end, 1 ended early by Ctrl-C (what was computed is "
+      "written "
+      "all the same), 2 usage or configuration, 3 input that cannot be read.");
   command->callback([a, &run] { run = [a] { return run_localize(*a); }; });
 }
 

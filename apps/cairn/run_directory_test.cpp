@@ -125,6 +125,15 @@ TEST_F(RunDirectory, RefusesAFolderWithForeignFiles) {
   EXPECT_THROW(check_run_directory(directory_ / "metrics.json"), ConfigurationError);
 }
 
+TEST_F(RunDirectory, RefusesWhereNoFolderCanBeMade) {
+  EXPECT_THROW(check_run_directory(""), ConfigurationError);
+  fs::create_directories(directory_);
+  write_file(directory_ / "letter.txt", "mine");
+  EXPECT_THROW(check_run_directory(directory_ / "letter.txt" / "below" / "deep"), ConfigurationError);
+  EXPECT_NO_THROW(check_run_directory(directory_ / "new" / "and" / "deep"));
+  EXPECT_FALSE(fs::exists(directory_ / "new")) << "a check makes nothing";
+}
+
 TEST_F(RunDirectory, TakesOverARunWhoseWritingWasCutShort) {
   write_run(directory_, small_run());
   fs::remove(directory_ / "metrics.json");

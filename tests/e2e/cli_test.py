@@ -229,7 +229,7 @@ class Runs(CliTest):
         result = self.localize("--reference", "a.truth.tum", init="reference")
         self.assertEqual(result.returncode, OK, result.stderr)
         self.assertIn("belief    tracking", result.stdout)
-        self.assertEqual(result.stderr, "", "nothing to say about a short run without trouble")
+        self.assertNotRegex(result.stderr, "warning|error")
         for name in ["trajectory.tum", "estimate.csv", "metrics.json", "config.yaml", "map.yaml", "map.png"]:
             self.assertTrue((self.folder / self.id() / name).is_file(), name)
         metrics = self.metrics()
@@ -240,6 +240,19 @@ class Runs(CliTest):
             self.assertEqual(sum(metrics["outcomes"][stream["name"]].values()), stream["messages"])
         scan = next(s for s in metrics["log"]["streams"] if s["kind"] == "laser_scan")
         self.assertEqual(scan["messages"], 301)
+
+    def test_a_tour_of_the_whole_office(self):
+        self.run_cairn("simulate", "office", "--out", "tour.log")
+        reference = ["--reference", "tour.truth.tum"]
+        known = self.localize(*reference, log="tour.log", map_="tour.map.yaml")
+        self.assertEqual(known.returncode, OK, known.stderr)
+        self.assertLess(self.metrics()["accuracy"]["ate_mean_m"], 0.03)
+        self.assertLess(self.metrics()["accuracy"]["ate_max_m"], 0.2)
+        for seed in ["1", "2", "3"]:
+            anywhere = self.localize("--global", "--seed", seed, *reference, log="tour.log", map_="tour.map.yaml", init=None)
+            self.assertEqual(anywhere.returncode, OK, anywhere.stderr)
+            self.assertLess(self.metrics()["accuracy"]["ate_median_m"], 0.03)
+            self.assertLess(self.metrics()["accuracy"]["ate_p95_m"], 0.1)
 
     def test_the_same_bytes_again_and_for_any_number_of_threads(self):
         names = ["first", "again", "two", "seven"]
@@ -265,7 +278,7 @@ class Runs(CliTest):
                    "--reference", "a.truth.tum", "--set", "recipe=mcl", "--set", "filter.particles=300000",
                    "--set", "update.min_translation_m=0", "--set", "laser.max_beams=180"]
         with subprocess.Popen(command, cwd=self.folder, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as run:
-            self.assertRegex(run.stderr.readline(), r"^localizing: 10 %, \d+ (s|min) left$", "progress of long work")
+            self.assertRegex(run.stderr.readline(), r"^localizing: \d0 %, \d+ (s|min) left$", "progress of long work")
             run.send_signal(signal.SIGINT)
             output, talk = run.communicate(timeout=60)
         self.assertEqual(run.returncode, FAILED, talk)
