@@ -77,7 +77,7 @@ TEST(LikelihoodField, IsFiniteEverywhere) {
   const double nan = std::nan("");
   const std::vector<Pose2> poses = {
       {1e6, -1e6, 1}, {1e12, 1e12, 3},   {-1e18, 1e-300, -3},    {1e300, -1e300, 1},
-      {-100, 0, 1e9},    {kInfinity, 0, 0}, {0, -kInfinity, 0},     {nan, 0, 0},
+      {-100, 0, 1e9}, {kInfinity, 0, 0}, {0, -kInfinity, 0},     {nan, 0, 0},
       {0, 0, nan},    {0, 0, kInfinity}, {1.7e308, 1.7e308, 0.7}};
   for (const Pose2& pose : poses) {
     EXPECT_NEAR(score(model, cross({1.0f, 2.0f, 3.0f, 4.0f}), pose), 4.0 * log_p(2.0), 1e-5)
