@@ -99,15 +99,11 @@ Outcome MonteCarloLocalizer::take(const Event& event) {
 
 Outcome MonteCarloLocalizer::take(const Odometry& odometry) {
   const OdometryBuffer::Intake intake = odometry_.offer(odometry);
-  if (intake.held) settle(*odometry_stream_, *intake.held);
+  if (intake.held) settle_held(*intake.held);
   if (intake.set_back) {
     diagnostics_.warn("clock set back", "odometry at " + format_time(odometry.stamp) + " s",
                       "the stamps go on from here");
     if (belief_stamp_) belief_stamp_ = std::min(*belief_stamp_, odometry_.oldest());
-  }
-  if (intake.now == Outcome::kPending) {
-    diagnostics_.warn("odometry stamp jumps", "odometry at " + format_time(odometry.stamp) + " s",
-                      "the one before it was at " + format_time(odometry_.newest()) + " s");
   }
   return intake.now;
 }
@@ -142,7 +138,7 @@ void MonteCarloLocalizer::use_pending() {
 }
 
 void MonteCarloLocalizer::finish() {
-  if (odometry_.drop_held()) settle(*odometry_stream_, Outcome::kDroppedOutOfOrder);
+  if (odometry_.drop_held()) settle_held(Outcome::kDroppedOutOfOrder);
   while (!pending_.empty()) {
     const PendingScan next = pending_.front();
     pending_.pop_front();
@@ -218,6 +214,13 @@ ParticleSnapshot MonteCarloLocalizer::snapshot(std::size_t at_most) const {
 void MonteCarloLocalizer::decide(const PendingScan& scan, Outcome outcome) {
   settle(scan.stream, outcome);
   if (scan.event_number == event_number_) event_outcome_ = outcome;
+}
+
+void MonteCarloLocalizer::settle_held(Outcome outcome) {
+  settle(*odometry_stream_, outcome);
+  if (outcome == Outcome::kUsed) return;
+  diagnostics_.warn("odometry stamp not believed", "odometry after " + format_time(odometry_.newest()) + " s",
+                    "its stamp jumps by more than 10 s, and the next message does not follow it");
 }
 
 void MonteCarloLocalizer::settle(StreamId stream, Outcome outcome) {

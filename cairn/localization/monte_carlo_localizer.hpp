@@ -78,6 +78,7 @@ class MonteCarloLocalizer final : public Localizer {
   Outcome use(const PendingScan& pending, const Pose2& T_odom_base);
   void decide(const PendingScan& scan, Outcome outcome);
   void settle(StreamId stream, Outcome outcome);
+  void settle_held(Outcome outcome);
   void count(StreamId stream, Outcome outcome);
   bool moved_enough(const Pose2& T_last_now) const;
   Estimate summarize(const LaserScan& scan, const LikelihoodField& model) const;

@@ -225,7 +225,7 @@ TEST_F(MonteCarloLocalizerTest, OneOdometryStampFromTheFutureCostsOneMessage) {
   drive(5.0);
   EXPECT_EQ(count(Outcome::kDroppedOutOfOrder, 0), 2) << "the wrong one, and 0.0 s a second time";
   EXPECT_EQ(count(Outcome::kUsed, 0), 101);
-  EXPECT_EQ(warnings("odometry stamp jumps"), 1);
+  EXPECT_EQ(warnings("odometry stamp not believed"), 1);
   EXPECT_LT(distance(estimates_.back().T_map_base, on_circle(kStart, to_seconds(estimates_.back().stamp))),
             0.15);
 }
