@@ -57,7 +57,7 @@ struct InitialOptions {
 /// them.
 struct GlobalOptions {
   double sigma_hit_m = 0.4;
-  double effective_beams = 10.0;
+  double effective_beams = 6.0;
   double candidates_per_m2 =
       250.0;  ///< poses that the first scan of a robot that may be anywhere chooses from
 
