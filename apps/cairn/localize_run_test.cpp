@@ -102,8 +102,8 @@ EndVerdict verdict(int count, void (*spoil)(Estimate&)) {
 TEST(JudgeEnd, LooksAtTheLastScans) {
   const auto blind = [](Estimate& e) { e.quality = 0.0; };
   EXPECT_FALSE(verdict(0, blind).lost);
-  EXPECT_FALSE(verdict(8, blind).lost) << "0.9 * 12 / 20 = 0.54";
-  EXPECT_TRUE(verdict(9, blind).lost) << "0.9 * 11 / 20 = 0.495";
+  EXPECT_FALSE(verdict(4, blind).lost) << "0.9 * 16 / 20 = 0.72";
+  EXPECT_TRUE(verdict(5, blind).lost) << "0.9 * 15 / 20 = 0.675";
   EXPECT_THAT(verdict(20, blind).reason, HasSubstr("explains only 0 % of the beams of the last 20 scans"));
 }
 
