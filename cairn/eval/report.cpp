@@ -103,6 +103,7 @@ json RunWriter::belief() const {
 template <typename Items, typename Value>
 json RunWriter::series(const Items& items, Value value) const {
   std::vector<double> values;
+  values.reserve(items.size());
   for (const auto& item : items) values.push_back(value(item));
   json t = json::array();
   json v = json::array();

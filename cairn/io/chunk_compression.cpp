@@ -9,7 +9,7 @@
 namespace cairn {
 namespace {
 
-using Buffer = std::array<char, 64 * 1024>;
+using Buffer = std::array<char, std::size_t{64} * 1024>;
 
 class Bz2Decoder {
  public:

@@ -23,7 +23,7 @@ constexpr std::array<const char*, 7> kKeys = {"image",           "resolution",  
 /// Typed access to the keys of one YAML file, with its places for messages.
 class MapYaml {
  public:
-  MapYaml(YAML::Node root, std::string name) : root_(std::move(root)), name_(std::move(name)) {
+  MapYaml(const YAML::Node& root, std::string name) : root_(root), name_(std::move(name)) {
     if (!root_.IsMap())
       fail(root_, "is not a map description (key: value lines)", "name the map's .yaml file");
   }

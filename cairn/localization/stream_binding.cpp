@@ -60,9 +60,9 @@ void MonteCarloLocalizer::bind_streams(const std::vector<StreamInfo>& streams, c
     if (!laser.use) continue;
     const Pose2 T_base_sensor =
         laser.mount_from_log && stream.T_base_sensor ? *stream.T_base_sensor : laser.T_base_sensor;
-    laser_models_.back() = {
-        std::make_unique<const LikelihoodField>(field, T_base_sensor, laser.limits, options_.laser),
-        std::make_unique<const LikelihoodField>(field, T_base_sensor, laser.limits, coarse)};
+    LaserModels& models = laser_models_.back();
+    models.fine = std::make_unique<const LikelihoodField>(field, T_base_sensor, laser.limits, options_.laser);
+    models.coarse = std::make_unique<const LikelihoodField>(field, T_base_sensor, laser.limits, coarse);
     any = true;
   }
   if (!any) {

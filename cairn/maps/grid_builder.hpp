@@ -66,8 +66,8 @@ class GridBuilder {
   struct Extent {
     Cell min;
     Cell max;
-    std::size_t width() const { return static_cast<std::size_t>(max.column - min.column + 1); }
-    std::size_t height() const { return static_cast<std::size_t>(max.row - min.row + 1); }
+    std::size_t width() const { return static_cast<std::size_t>(max.column - min.column) + 1; }
+    std::size_t height() const { return static_cast<std::size_t>(max.row - min.row) + 1; }
     friend bool operator==(const Extent&, const Extent&) = default;
   };
   struct Counts {
