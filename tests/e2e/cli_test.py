@@ -20,6 +20,18 @@ OK, FAILED, USAGE, BAD_INPUT, LOST = 0, 1, 2, 3, 4
 START = "1,1.2,0"
 SUBCOMMANDS = [[], ["config"], ["localize"], ["log"], ["log", "info"], ["map"], ["map", "build"], ["map", "info"],
                ["report"], ["score"], ["simulate"]]
+ROOT = Path(__file__).resolve().parents[2]
+DATA = Path(os.environ.get("CAIRN_DATA", ROOT.parent / "shared" / "data"))
+CONFIGS = ROOT / "configs" / "datasets"
+# Which recordings a shipped configuration is for.
+SHIPPED = {
+    "aces": ["radish_raw/aces.clf.bz2"],
+    "intel": ["radish_raw/intel.clf.bz2"],
+    "jarvis": ["jarvis_nav350/jarvis_complex_path_fast.bag"],
+    "mrpt_uwb": ["mrpt_uwb_laser/log.txt"],
+    "radish_derived": [f"radish_derived/{place}.log.gz" for place in ["aces", "edmonton", "freiburg-101", "intel", "seattle"]],
+    "wean": [f"wean/robotdata{run}.log" for run in [1, 2, 3]],
+}
 # "error: where: what; what to do", or a sentence about the run.
 SENTENCE = re.compile(r"^error: \S.*\S$", re.MULTILINE)
 
@@ -152,6 +164,35 @@ class Configuration(CliTest):
         again = self.run_cairn("config", "--config", f"{self.id()}/config.yaml")
         self.assertEqual(again.stdout, (self.folder / self.id() / "config.yaml").read_text())
         self.assertIn("max_particles: 777", again.stdout)
+
+    def test_every_shipped_configuration_is_accepted(self):
+        self.assertEqual({file.stem for file in CONFIGS.glob("*")}, SHIPPED.keys())
+        for name in SHIPPED:
+            with self.subTest(name):
+                result = self.run_cairn("config", "--config", CONFIGS / f"{name}.yaml")
+                self.assertEqual((result.returncode, result.stderr), (OK, ""))
+
+    def test_shipped_configurations_differ_from_the_defaults_only_in_streams(self):
+        defaults = self.run_cairn("config").stdout.split("streams:")[0]
+        for name in SHIPPED:
+            with self.subTest(name):
+                printed = self.run_cairn("config", "--config", CONFIGS / f"{name}.yaml").stdout.split("streams:")[0]
+                different = [a for a, b in zip(printed.splitlines(), defaults.splitlines(), strict=True) if a != b]
+                self.assertEqual([line.split(":")[0] for line in different], ["odometry_stream"])
+
+    def test_shipped_configurations_name_the_streams_of_their_recordings(self):
+        for name, logs in SHIPPED.items():
+            text = (CONFIGS / f"{name}.yaml").read_text()
+            named = re.findall(r'^odometry_stream: "?([^"\n]+)"?$|^  (\S+):', text, re.MULTILINE)
+            for log in logs:
+                with self.subTest(log):
+                    if not (DATA / log).is_file():
+                        self.skipTest(f"no recording {log} under {DATA}")
+                    info = self.run_cairn("log", "info", DATA / log, "--json")
+                    self.assertEqual(info.returncode, OK, info.stderr)
+                    streams = {stream["name"] for stream in json.loads(info.stdout)["streams"]}
+                    self.assertGreaterEqual(len(named), 2)
+                    self.assertLessEqual({odometry or laser for odometry, laser in named}, streams)
 
     def test_nav2_parameters(self):
         name = self.write("nav2.yaml", NAV2)
