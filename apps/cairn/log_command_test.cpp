@@ -1,11 +1,9 @@
 #include "apps/cairn/commands.hpp"
 #include "cairn/core/errors.hpp"
+#include "tests/support/command_output.hpp"
 
 #include <filesystem>
 #include <fstream>
-#include <iostream>
-#include <memory>
-#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -36,16 +34,7 @@ class LogCommand : public ::testing::Test {
   }
   /// What the command prints.
   static std::string output_of(const std::string& arguments) {
-    CLI::App program;
-    Runner run;
-    add_log(program, run);
-    program.parse("log " + arguments);
-    std::ostringstream output;
-    auto* const console = std::cout.rdbuf(output.rdbuf());
-    const auto restore = [console](void*) { std::cout.rdbuf(console); };
-    const std::unique_ptr<void, decltype(restore)> guard(&output, restore);
-    EXPECT_EQ(run(), kOk);
-    return output.str();
+    return test::output_of(add_log, "log " + arguments);
   }
 
  private:

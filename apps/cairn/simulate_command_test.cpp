@@ -3,13 +3,11 @@
 #include "cairn/io/log_reader.hpp"
 #include "cairn/io/map_reader.hpp"
 #include "cairn/io/trajectory_reader.hpp"
+#include "tests/support/command_output.hpp"
 
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <iterator>
-#include <memory>
-#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -27,16 +25,7 @@ class SimulateCommand : public ::testing::Test {
 
   /// What `cairn simulate <arguments>` prints.
   static std::string simulate(const std::string& arguments) {
-    CLI::App program;
-    Runner run;
-    add_simulate(program, run);
-    program.parse("simulate " + arguments);
-    std::ostringstream output;
-    auto* const console = std::cout.rdbuf(output.rdbuf());
-    const auto restore = [console](void*) { std::cout.rdbuf(console); };
-    const std::unique_ptr<void, decltype(restore)> guard(&output, restore);
-    EXPECT_EQ(run(), kOk);
-    return output.str();
+    return test::output_of(add_simulate, "simulate " + arguments);
   }
 
   std::string bytes(const std::string& name) const {
