@@ -1,6 +1,8 @@
 #include "apps/cairn/commands.hpp"
 #include "apps/cairn/map_building.hpp"
+#include "apps/cairn/output_file.hpp"
 #include "apps/cairn/pose_option.hpp"
+#include "apps/cairn/progress.hpp"
 #include "cairn/core/errors.hpp"
 #include "cairn/io/log_reader.hpp"
 #include "cairn/io/map_reader.hpp"
@@ -19,6 +21,8 @@ namespace cairn::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr int kProgressSteps = 1000;
 
 struct BuildArguments {
   std::string log, trajectory, stream, mount, out;
@@ -47,13 +51,6 @@ MapBuildingOptions options_of(const BuildArguments& arguments) {
   return options;
 }
 
-/// One line on standard error per tenth of the work.
-std::function<void(double)> lines_per_tenth() {
-  return [tenths = 0](double done) mutable {
-    for (; tenths < static_cast<int>(10.0 * done); ++tenths) spdlog::info("map: {} %", 10 * (tenths + 1));
-  };
-}
-
 Trajectory read_path(const BuildArguments& arguments, const Log& log, StreamId stream) {
   Diagnostics diagnostics;
   TrajectoryOptions options;
@@ -63,12 +60,20 @@ Trajectory read_path(const BuildArguments& arguments, const Log& log, StreamId s
   return path;
 }
 
+BuiltMap build_with_progress(const Log& log, const Trajectory& path, const MapBuildingOptions& options) {
+  Progress progress("building the map", kProgressSteps);
+  return build_map(log, path, options, [&progress](double done) {
+    progress.update(static_cast<std::int64_t>(kProgressSteps * done));
+  });
+}
+
 int run_build(const BuildArguments& arguments) {
   const MapBuildingOptions options = options_of(arguments);
+  prepare_output_file(arguments.out);
   const Log log = read_log(arguments.log);
   warn_of(arguments.log, log.diagnostics);
   const Trajectory path = read_path(arguments, log, laser_stream(log, options.stream));
-  const BuiltMap map = build_map(log, path, options, lines_per_tenth());
+  const BuiltMap map = build_with_progress(log, path, options);
   if (map.scans_without_pose > 0) {
     spdlog::warn("{} of {} scans have no pose in the trajectory and were left out", map.scans_without_pose,
                  map.scans_without_pose + map.scans_used + map.scans_without_return);

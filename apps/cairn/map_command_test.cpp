@@ -1,11 +1,10 @@
 #include "apps/cairn/commands.hpp"
 #include "cairn/core/errors.hpp"
+#include "tests/support/command_output.hpp"
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
-#include <memory>
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -47,16 +46,7 @@ class MapCommand : public ::testing::Test {
   void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
 
   static std::string output_of(const std::string& arguments) {
-    CLI::App program;
-    Runner run;
-    add_map(program, run);
-    program.parse("map " + arguments);
-    std::ostringstream output;
-    auto* const console = std::cout.rdbuf(output.rdbuf());
-    const auto restore = [console](void*) { std::cout.rdbuf(console); };
-    const std::unique_ptr<void, decltype(restore)> guard(&output, restore);
-    EXPECT_EQ(run(), kOk);
-    return output.str();
+    return test::output_of(add_map, "map " + arguments);
   }
   std::string build(const std::string& more) {
     return output_of("build --log " + path("room.log") + " --trajectory " + path("path.txt") + " --out " +
@@ -82,6 +72,19 @@ TEST_F(MapCommand, PutsTheLaserWhereTheMountSays) {
   build("--mount 10,0,0");
   const auto json = nlohmann::json::parse(output_of("info " + path("m.yaml") + " --json"));
   EXPECT_NEAR(json["origin"]["x_m"].get<double>(), 10.0, 0.06);
+}
+
+TEST_F(MapCommand, MakesTheFolderOfTheMap) {
+  const std::string map = path("maps/of/m.yaml");
+  output_of("build --log " + path("room.log") + " --trajectory " + path("path.txt") +
+            " --max-gap-s 20 --mount 0,0,0 --out " + map);
+  EXPECT_THAT(output_of("info " + map), HasSubstr("cells of 0.05 m"));
+}
+
+TEST_F(MapCommand, RefusesAnOutputThatIsNoFileBeforeItReadsTheLog) {
+  EXPECT_THROW(output_of("build --log " + path("none.log") + " --trajectory " + path("path.txt") + " --out " +
+                         folder_.string()),
+               ConfigurationError);
 }
 
 TEST_F(MapCommand, RefusesWhatItCannotUse) {
