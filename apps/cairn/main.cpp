@@ -2,6 +2,7 @@
 #include "cairn/core/errors.hpp"
 
 #include <exception>
+#include <string>
 
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
@@ -34,6 +35,9 @@ int main(int argc, char** argv) {
 
   CLI::App program("Cairn tells a mobile robot where it is", "cairn");
   program.set_version_flag("--version", CAIRN_VERSION);
+  program.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return std::string("error: ") + error.what() + "; see `cairn --help`\n";
+  });
   program.require_subcommand(0, 1);  // none: refused below; an unknown one is named by CLI11
   cairn::app::Runner run;
   cairn::app::add_config(program, run);
