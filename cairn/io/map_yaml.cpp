@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kMinResolutionM = 1e-4;
 constexpr double kMaxResolutionM = 100.0;
+constexpr double kCoarsestPlausibleM = 1.0;
 constexpr std::array<const char*, 7> kKeys = {"image",           "resolution",  "origin", "negate",
                                               "occupied_thresh", "free_thresh", "mode"};
 
@@ -158,7 +159,11 @@ MapDescription read_map_description(std::istream& input, const std::string& name
   try {
     const MapYaml yaml(load_yaml(input), name);
     yaml.warn_of_unknown_keys(diagnostics);
-    return describe(yaml);
+    const MapDescription map = describe(yaml);
+    if (map.resolution_m > kCoarsestPlausibleM) {
+      diagnostics.warn("implausible units", name, "a resolution beyond 1 m; metres per pixel are expected");
+    }
+    return map;
   } catch (const YAML::Exception& error) {
     throw InputError(
         name + ":" + std::to_string(error.mark.line + 1) + ":" + std::to_string(error.mark.column + 1),

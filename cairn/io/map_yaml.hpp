@@ -29,7 +29,7 @@ struct MapDescription {
 };
 
 /// Reads the YAML text. `image`, `resolution` and `origin` must be there; an unknown key is counted as a
-/// warning.
+/// warning, and so is a resolution beyond 1 m ("implausible units": centimetres look like this).
 /// @throws InputError file:line:column for text that is not YAML, a missing key, a value of another kind,
 /// NaN,
 ///   a resolution outside 0.0001..100 m, an origin beyond 1e8 m, thresholds not 0 <= free <= occupied <= 1

@@ -55,6 +55,13 @@ TEST(MapDescription, CountsUnknownKeys) {
   EXPECT_THAT(diagnostics.examples().at(0).text, HasSubstr("f:4:1: 'resolutoin'"));
 }
 
+TEST(MapDescription, WarnsOfAResolutionInCentimetres) {
+  Diagnostics diagnostics;
+  std::istringstream input("image: a.pgm\nresolution: 5.0\norigin: [0, 0, 0]\n");
+  EXPECT_EQ(read_map_description(input, "m.yaml", diagnostics).resolution_m, 5.0);
+  EXPECT_EQ(diagnostics.counts().at("implausible units"), 1);
+}
+
 TEST(MapDescription, RefusesWhatIsMalformed) {
   EXPECT_THAT(error_of(""), HasSubstr("is not a map description"));
   EXPECT_THAT(error_of("- 1\n- 2\n"), HasSubstr("is not a map description"));

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 namespace cairn {
@@ -15,14 +14,17 @@ constexpr std::size_t kMinWindows = 10;
 constexpr Duration kWindow = std::chrono::seconds(1);
 constexpr double kMovedM = 1e-3;
 
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 /// What the check wants to know of one stream.
 struct Tally {
   double readings = 0.0;
   double far_readings = 0.0;
-  std::optional<Odometry> last;
-  std::vector<double> speeds;  ///< metres a second, while moving
-  Time since;
-  double moved_m = 0.0;
+  SpeedMeter speed;
 
   void add(const std::shared_ptr<const LaserScan>& scan) {
     for (const float range : scan->ranges_m) {
@@ -31,25 +33,30 @@ struct Tally {
       far_readings += range > kFarM ? 1.0 : 0.0;
     }
   }
-  // Over at least a second each: real logs hold bursts of messages stamped within a millisecond.
-  void add(const Odometry& odometry) {
-    if (last) moved_m += distance(last->T_odom_base, odometry.T_odom_base);
-    if (!last || odometry.stamp < since) since = odometry.stamp;
-    last = odometry;
-    if (odometry.stamp - since < kWindow) return;
-    if (moved_m > kMovedM) speeds.push_back(moved_m / to_seconds(odometry.stamp - since));
-    since = odometry.stamp;
-    moved_m = 0.0;
-  }
+  void add(const Odometry& odometry) { speed.add(odometry.stamp, odometry.T_odom_base); }
 };
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+}  // namespace
+
+void SpeedMeter::add(Time stamp, const Pose2& pose) {
+  if (last_) moved_m_ += distance(*last_, pose);
+  if (!last_ || stamp < since_) since_ = stamp;
+  last_ = pose;
+  if (stamp - since_ < kWindow) return;
+  if (moved_m_ > kMovedM) speeds_mps_.push_back(moved_m_ / to_seconds(stamp - since_));
+  since_ = stamp;
+  moved_m_ = 0.0;
 }
 
-}  // namespace
+bool SpeedMeter::implausibly_fast() const {
+  return speeds_mps_.size() >= kMinWindows && median(speeds_mps_) > kFastMps;
+}
+
+bool implausibly_fast(const Trajectory& path) {
+  SpeedMeter speed;
+  for (const StampedPose& p : path) speed.add(p.stamp, p.pose);
+  return speed.implausibly_fast();
+}
 
 void warn_of_implausible_units(Log& log, const std::string& name) {
   std::vector<Tally> tallies(log.streams.size());
@@ -62,7 +69,7 @@ void warn_of_implausible_units(Log& log, const std::string& name) {
     if (tally.far_readings > 0.5 * tally.readings) {
       log.diagnostics.warn("implausible units", where, "most ranges are beyond 100 m; metres are expected");
     }
-    if (tally.speeds.size() >= kMinWindows && median(tally.speeds) > kFastMps) {
+    if (tally.speed.implausibly_fast()) {
       log.diagnostics.warn("implausible units", where,
                            "the robot moves faster than 10 m/s; metres and seconds are expected");
     }

@@ -2,6 +2,7 @@
 
 #include "cairn/core/angle.hpp"
 #include "cairn/core/errors.hpp"
+#include "cairn/io/plausible_units.hpp"
 
 #include <cmath>
 #include <limits>
@@ -63,6 +64,10 @@ Trajectory PoseCollector::finish(const LineReader& lines, Diagnostics& diagnosti
   }
   const std::size_t dropped = sort_by_stamp(poses_);
   if (dropped > 0) diagnostics.count("duplicate stamp", static_cast<std::int64_t>(dropped));
+  if (implausibly_fast(poses_)) {
+    diagnostics.warn("implausible units", lines.name(),
+                     "it moves faster than 10 m/s; metres and seconds are expected");
+  }
   return std::move(poses_);
 }
 

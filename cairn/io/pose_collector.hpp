@@ -33,7 +33,8 @@ class PoseCollector {
   void add(Time stamp, const Pose2& pose, const LineReader& line, Diagnostics& diagnostics);
 
   /// The poses by stamp. Counts in `diagnostics`: "stamp runs backwards" (sorted), "duplicate stamp" (the
-  /// first one is kept) and "last line has no end" (the file may have been cut short).
+  /// first one is kept), "last line has no end" (the file may have been cut short) and "implausible units"
+  /// (centimetres read as metres: see SpeedMeter).
   /// @throws InputError if there is no pose at all
   Trajectory finish(const LineReader& lines, Diagnostics& diagnostics);
 

@@ -45,6 +45,21 @@ TEST(PoseCollector, WarnsOfALastLineWithoutEnd) {
   EXPECT_EQ(cut.counts().at("last line has no end"), 1);
 }
 
+TEST(PoseCollector, WarnsOfCentimetres) {
+  // collect() makes x the position in the file: stamps one second apart move at 1 m/s, a hundredth of it at
+  // 100.
+  std::vector<double> slow, fast;
+  for (int i = 0; i < 2000; ++i) {
+    slow.push_back(i);
+    fast.push_back(0.01 * i);
+  }
+  Diagnostics metres, centimetres;
+  collect(slow, metres);
+  collect(fast, centimetres);
+  EXPECT_TRUE(metres.empty());
+  EXPECT_EQ(centimetres.counts().at("implausible units"), 1);
+}
+
 TEST(PoseCollector, RefusesAFileWithoutPoses) {
   Diagnostics diagnostics;
   EXPECT_THROW(collect({}, diagnostics), InputError);
