@@ -159,7 +159,7 @@ MapDescription read_map_description(std::istream& input, const std::string& name
   try {
     const MapYaml yaml(load_yaml(input), name);
     yaml.warn_of_unknown_keys(diagnostics);
-    const MapDescription map = describe(yaml);
+    MapDescription map = describe(yaml);
     if (map.resolution_m > kCoarsestPlausibleM) {
       diagnostics.warn("implausible units", name, "a resolution beyond 1 m; metres per pixel are expected");
     }
