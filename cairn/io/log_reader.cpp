@@ -9,6 +9,7 @@
 #include "cairn/io/wean_log.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <sstream>
 #include <string_view>
 
@@ -37,8 +38,18 @@ ReadLog reader_of_word(std::string_view word) {
   return nullptr;
 }
 
+// Noise has a line that begins with a reader's one-letter word sooner or later. One byte in nine of it is a
+// control character; a text log has none but line ends and tabs, damaged lines aside.
+bool is_text(std::string_view head) {
+  const auto is_control = [](char c) {
+    return (static_cast<unsigned char>(c) < ' ' && c != '\t' && c != '\n' && c != '\r') || c == '\x7f';
+  };
+  return 20 * std::count_if(head.begin(), head.end(), is_control) <= std::ssize(head);
+}
+
 // Decided by the first line that any reader knows: lines before it may be damaged.
 ReadLog reader_of_text(const std::string& head, const std::string& name) {
+  if (!is_text(head)) return nullptr;
   std::istringstream input(head);
   LineReader line(input, name);
   while (line.next()) {

@@ -1,6 +1,7 @@
 #include "cairn/io/log_reader.hpp"
 
 #include "cairn/core/errors.hpp"
+#include "cairn/core/rng.hpp"
 #include "log_inspection.hpp"
 #include "test_data.hpp"
 
@@ -41,6 +42,20 @@ TEST(LogReader, KnowsTextLogsByTheirLines) {
 
 TEST(LogReader, DamagedFirstLineDoesNotDecide) {
   EXPECT_EQ(format_of("0.25 nohost 0.1\n" + kOdom + kOdom), "carmen");
+}
+
+TEST(LogReader, DamagedBytesAreNoNoise) {
+  EXPECT_EQ(format_of(std::string(3, '\0') + "\n" + kOdom + kOdom), "carmen");
+}
+
+// Nearly every one of these has a line that begins with a reader's one-letter word.
+TEST(LogReader, NoiseIsNoTextLog) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const RandomStream random(seed, RandomPurpose::kInitialize, 0);
+    std::string noise;
+    for (std::uint32_t i = 0; i < 20000; ++i) noise += static_cast<char>(256.0 * random.uniform(i) - 128.0);
+    EXPECT_THAT(error_of(noise), HasSubstr("known format")) << "seed " << seed;
+  }
 }
 
 TEST(LogReader, BagGoesToTheBagReader) {
