@@ -20,8 +20,7 @@ namespace cairn {
 /// printed to 1e-6 m and rad, ranges to 1 mm, beam angles to 1e-9 rad; a range that is not finite is written
 /// as the maximum range (no return). The smallest range and the names of streams and frames are lost.
 /// @throws InputError if the log has not one odometry stream, more than nine lasers, or a payload that does
-/// not fit
-///   its stream's kind
+///   not fit its stream's kind
 void write_carmen_log(std::ostream& output, const Log& log);
 
 /// @throws InputError also if the file cannot be written

@@ -31,8 +31,8 @@ struct MapDescription {
 /// Reads the YAML text. `image`, `resolution` and `origin` must be there; an unknown key is counted as a
 /// warning, and so is a resolution beyond 1 m ("implausible units": centimetres look like this).
 /// @throws InputError file:line:column for text that is not YAML, a missing key, a value of another kind,
-/// NaN,
-///   a resolution outside 0.0001..100 m, an origin beyond 1e8 m, thresholds not 0 <= free <= occupied <= 1
+///   NaN, a resolution outside 0.0001..100 m, an origin beyond 1e8 m, thresholds not 0 <= free <= occupied <=
+///   1
 MapDescription read_map_description(std::istream& input, const std::string& name, Diagnostics& diagnostics);
 
 /// The picture's top row is the grid's last one. A pixel that is not opaque is unknown (in kRaw opacity is

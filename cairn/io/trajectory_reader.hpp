@@ -20,10 +20,9 @@ struct TrajectoryOptions {
 /// TUM (8 fields), plain `t x y theta` (4 fields), Rawseeds CSV (commas), or numbered poses (0, 1, 2, ... x y
 /// theta).
 /// @param diagnostics  what was repaired: stamps sorted, duplicates dropped; see PoseCollector
-/// @throws InputError file:line:column for a malformed line (a reference with holes would lie), for a format
-/// that
-///   is none of these, for numbered poses without `frame_stamps`; as open_input for a file that cannot be
-///   read
+/// @throws InputError file:line:column for a malformed line (a reference with holes would lie), for a
+///   format that is none of these, for numbered poses without `frame_stamps`; as open_input for a file that
+///   cannot be read
 Trajectory read_trajectory(const std::filesystem::path& path, const TrajectoryOptions& options,
                            Diagnostics& diagnostics);
 Trajectory read_trajectory(const std::filesystem::path& path);

@@ -14,9 +14,8 @@ Packing packing_of(std::string_view bytes);
 /// Unpacks a gzip file held in memory: one member or several, one after the other (RFC 1952).
 /// @param name       of the file, for messages
 /// @param max_bytes  most that it may unpack to; memory stays below about twice that
-/// @throws InputError "name (byte N): ..." where N is an offset in the packed bytes, if the data is cut short
-/// or
-///   damaged, is followed by something else, or unpacks to more than `max_bytes`.
+/// @throws InputError "name (byte N): ..." where N is an offset in the packed bytes, if the data is cut
+///   short or damaged, is followed by something else, or unpacks to more than `max_bytes`.
 std::string unpack_gzip(std::string_view packed, const std::string& name, std::size_t max_bytes);
 
 /// The same for bzip2: one stream or several, one after the other.

@@ -12,8 +12,7 @@ namespace cairn {
 /// the probability that the cell is *free*, -1 where unknown. Cell (0, 0) has its outer corner at the map's
 /// origin.
 /// @throws InputError file:line:column for a malformed header, sizes that the file does not hold, a value
-/// that is
-///   neither -1 nor within 0..1, and surplus values
+///   that is neither -1 nor within 0..1, and surplus values
 OccupancyGrid read_wean_map(std::istream& input, const std::string& name);
 
 /// True if a file that begins so is a Wean map.

@@ -45,9 +45,8 @@ class GridBuilder {
 
   /// One scan, taken at `T_map_sensor`. `end_points` are the places where beams were reflected, in the
   /// sensor's frame, metres. Beams without a return must be left out: they prove nothing free.
-  /// @throws InputError if the pose or a point is not finite, or the map would exceed `max_cells`; the map is
-  /// as
-  ///   before
+  /// @throws InputError if the pose or a point is not finite, or the map would exceed `max_cells`; the map
+  ///   is as before
   void add(const Pose2& T_map_sensor, std::span<const Point2> end_points);
 
   /// The map of what was added so far: the smallest rectangle around the observed cells.
