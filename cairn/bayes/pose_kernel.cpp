@@ -51,4 +51,12 @@ void PoseKernel::move(std::span<Pose2> states, const RandomStream& random, std::
   }
 }
 
+void PoseKernel::save(PartMemory& memory) const {
+  for (const double sigma : {sigma_.x, sigma_.y, sigma_.theta}) memory.put(sigma);
+}
+
+void PoseKernel::load(PartMemory::Reader& memory) {
+  for (double* sigma : {&sigma_.x, &sigma_.y, &sigma_.theta}) *sigma = memory.take();
+}
+
 }  // namespace cairn

@@ -24,6 +24,8 @@ class PoseKernel final : public Regularization<Pose2> {
   explicit PoseKernel(const PoseKernelOptions& options) : options_(options) {}
   bool fit(const ParticleSet<Pose2>& particles) override;
   void move(std::span<Pose2> states, const RandomStream& random, std::uint16_t draw) const override;
+  void save(PartMemory& memory) const override;
+  void load(PartMemory::Reader& memory) override;
 
  private:
   bool fit_group(std::span<const Pose2> poses, std::span<const double> weights);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cairn/bayes/filter_part.hpp"
 #include "cairn/bayes/kld.hpp"
 #include "cairn/core/pose2.hpp"
 
@@ -12,10 +13,8 @@ namespace cairn {
 
 /// How many particles the next generation has: asked again and again while it is drawn.
 template <class State>
-class SampleSize {
+class SampleSize : public FilterPart {
  public:
-  virtual ~SampleSize() = default;
-
   /// Starts a generation and returns the number of particles to draw first.
   virtual std::size_t begin() = 0;
 

@@ -21,6 +21,8 @@ enum class RandomPurpose : std::uint16_t {
   kTest = 4,
   kRegularize = 5,
   kCandidates = 6,
+  kRefine = 7,
+  kInject = 8,
 };
 
 /// Random numbers as a pure function of (seed, purpose, step, item, draw).

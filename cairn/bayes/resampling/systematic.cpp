@@ -1,21 +1,6 @@
 #include "cairn/bayes/resampling/systematic.hpp"
 
-#include "cairn/core/errors.hpp"
-
-#include <algorithm>
-#include <cmath>
-
 namespace cairn {
-
-std::vector<double> cumulative_weights(std::span<const double> normalized_log_weights) {
-  CAIRN_ASSERT(!normalized_log_weights.empty());
-  std::vector<double> cumulative(normalized_log_weights.size());
-  double sum = 0.0;
-  for (std::size_t i = 0; i < cumulative.size(); ++i)
-    cumulative[i] = sum += std::exp(normalized_log_weights[i]);
-  for (double& c : cumulative) c /= sum;
-  return cumulative;
-}
 
 void draw_systematic(std::span<const double> cumulative, std::size_t count, double offset,
                      std::vector<std::uint32_t>& ancestors) {

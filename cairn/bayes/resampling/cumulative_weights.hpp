@@ -1,0 +1,14 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace cairn {
+
+/// Cumulative sums of exp(log_weights), the last one exactly 1. @pre not empty, log-weights normalised
+std::vector<double> cumulative_weights(std::span<const double> normalized_log_weights);
+
+/// The same into a vector that is used again and again, so that it allocates only when it grows.
+void cumulative_weights(std::span<const double> normalized_log_weights, std::vector<double>& cumulative);
+
+}  // namespace cairn
