@@ -48,8 +48,9 @@ void whole_step(benchmark::State& state) {
   auto filter = make_filter(options, 1, std::make_shared<const Executor>(1));
   const std::vector<Pose2> start = tracking_particles(static_cast<std::size_t>(state.range(0)));
   filter.initialize([&](const RandomStream&, std::uint32_t i) { return start[i]; });
-  const auto field = std::make_shared<const DistanceField>(*world.map, options.laser.max_distance_m);
-  const LikelihoodField model(field, {}, {}, options.laser);
+  const auto field =
+      std::make_shared<const DistanceField>(*world.map, options.laser.likelihood_field.max_distance_m);
+  const LikelihoodField model(field, {}, {}, options.laser.likelihood_field);
   Pose2 control = kControl;
   for (auto _ : state) {
     filter.update(control, model.bind(world.scan));

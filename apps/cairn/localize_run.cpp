@@ -57,7 +57,7 @@ LocalizeResult localize(const LocalizeRequest& request) {
   LocalizeResult result;
   const auto prepare_started = Clock::now();
   const auto executor = std::make_shared<const Executor>(request.threads);
-  MonteCarloLocalizer localizer(request.options, request.log->streams, *request.map, request.start,
+  MonteCarloLocalizer localizer(request.options, request.log->streams, request.map, request.start,
                                 request.seed, executor);
   localizer.set_observer([&](const Estimate& estimate) { result.estimates.push_back(estimate); });
   result.prepare_s = seconds_since(prepare_started);

@@ -21,8 +21,12 @@ class AmclReader final : public OptionVisitor {
   void integer(const Field& field, int& value, Range range) override {
     read(field, [&](YamlOptionReader& reader, const Field& found) { reader.integer(found, value, range); });
   }
-  void flag(const Field&, bool&) override {}
-  void choice(const Field&, std::string&, const std::vector<std::string>&) override {}
+  void flag(const Field& field, bool& value) override {
+    read(field, [&](YamlOptionReader& reader, const Field& found) { reader.flag(found, value); });
+  }
+  void choice(const Field& field, std::string& value, const std::vector<std::string>& choices) override {
+    read(field, [&](YamlOptionReader& reader, const Field& found) { reader.choice(found, value, choices); });
+  }
   void text(const Field&, std::string&) override {}
   void section(const Field&, const std::function<void(OptionVisitor&)>& visit) override { visit(*this); }
   void table(const Field&, const std::vector<std::string>&,

@@ -66,6 +66,10 @@ void LaserStreamOptions::visit(OptionVisitor& v) {
            {0.0, 1e9});
   v.number({"max_range_m", "longer ranges are not used, metres", {"laser_max_range"}}, limits.max_range_m,
            {0.0, 1e9});
+  std::vector<std::string> models = laser_model_names();
+  models.insert(models.begin(), "");
+  v.choice({"model", "sensor model of this stream; empty: laser.model"}, model, models);
+  v.text({"map", "name of the map that this stream uses; empty: the main map"}, map);
 }
 
 void FilterOptions::visit(OptionVisitor& v) {
@@ -123,7 +127,7 @@ void LocalizerOptions::visit(OptionVisitor& v) {
   v.text({"odometry_stream", "name of the odometry in the log; empty: the first odometry stream"},
          odometry_stream);
   section("motion", "odometry motion model of a differential drive", motion);
-  section("laser", "likelihood field of the laser scanners", laser);
+  section("laser", "sensor models of the laser scanners", laser);
   section("filter", "particles", filter);
   section("update", "when a scan is worth an update", update);
   section("initial", "spread around a given start pose", initial);
@@ -138,9 +142,7 @@ void LocalizerOptions::validate() const {
   RangeCheck ranges;
   LocalizerOptions(*this).visit(ranges);
   filter.validate();
-  if (laser.z_hit + laser.z_rand <= 0.0) {
-    throw ConfigurationError("laser.z_hit", "and z_rand are both zero", "give one of them a weight");
-  }
+  laser.validate();
   for (const auto& [name, stream] : streams) {
     if (stream.limits.min_range_m >= stream.limits.max_range_m) {
       throw ConfigurationError("streams." + name + ".min_range_m", "is not below max_range_m",

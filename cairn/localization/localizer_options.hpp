@@ -4,8 +4,8 @@
 #include "cairn/bayes/pose_kernel.hpp"
 #include "cairn/core/options.hpp"
 #include "cairn/models/motion/differential_drive.hpp"
+#include "cairn/models/registry.hpp"
 #include "cairn/models/sensor/beam_selection.hpp"
-#include "cairn/models/sensor/likelihood_field.hpp"
 
 #include <map>
 #include <string>
@@ -18,6 +18,8 @@ struct LaserStreamOptions {
   bool mount_from_log = true;  ///< take the mounting pose from the log where it tells one
   Pose2 T_base_sensor;         ///< used where the log does not tell, or if mount_from_log is false
   BeamLimits limits;
+  std::string model;  ///< sensor model, by its name in cairn/models/registry.hpp; empty: laser.model
+  std::string map;    ///< name in the MapLibrary; empty: the main map
 
   void visit(OptionVisitor& visitor);
 };
@@ -69,7 +71,7 @@ struct LocalizerOptions {
   std::string recipe = "kld_mcl";
   std::string odometry_stream;  ///< name in the log; empty: the only one, or the first
   DifferentialDriveOptions motion;
-  LikelihoodFieldOptions laser;
+  LaserModelOptions laser;
   FilterOptions filter;
   UpdateOptions update;
   InitialOptions initial;

@@ -32,7 +32,7 @@ const LocalizerOptions& validated(const LocalizerOptions& options) {
 }  // namespace
 
 MonteCarloLocalizer::MonteCarloLocalizer(const LocalizerOptions& options,
-                                         const std::vector<StreamInfo>& streams, const OccupancyGrid& map,
+                                         const std::vector<StreamInfo>& streams, const MapLibrary& maps,
                                          const Start& start, std::uint64_t seed,
                                          std::shared_ptr<const Executor> executor)
     : options_(validated(options)),
@@ -40,11 +40,12 @@ MonteCarloLocalizer::MonteCarloLocalizer(const LocalizerOptions& options,
       filter_(make_filter(options, seed, executor_)),
       last_used_(streams.size()),
       outcomes_(streams.size()) {
-  bind_streams(streams, map);
+  bind_streams(streams, maps);
+  const auto map = maps.main().grid();
   if (start.T_map_base) {
-    start_near(*start.T_map_base, map.geometry());
+    start_near(*start.T_map_base, map->geometry());
   } else {
-    global_start_.emplace(map, options_.global.candidates_per_m2, seed);
+    global_start_.emplace(*map, options_.global.candidates_per_m2, seed);
   }
 }
 
@@ -179,7 +180,7 @@ bool MonteCarloLocalizer::moved_enough(const Pose2& T_last_now) const {
          std::abs(T_last_now.theta) >= options_.update.min_rotation_rad;
 }
 
-Estimate MonteCarloLocalizer::summarize(const LaserScan& scan, const LikelihoodField& model) const {
+Estimate MonteCarloLocalizer::summarize(const LaserScan& scan, const LaserModel& model) const {
   const ParticleSet<Pose2>& particles = filter_.particles();
   std::vector<double> weights(particles.size());
   std::transform(particles.log_weights.begin(), particles.log_weights.end(), weights.begin(),

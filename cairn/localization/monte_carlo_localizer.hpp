@@ -5,7 +5,7 @@
 #include "cairn/localization/localizer.hpp"
 #include "cairn/localization/localizer_options.hpp"
 #include "cairn/localization/odometry_buffer.hpp"
-#include "cairn/maps/occupancy_grid.hpp"
+#include "cairn/maps/map_set.hpp"
 #include "cairn/sensing/stream_info.hpp"
 
 #include <deque>
@@ -37,9 +37,10 @@ class MonteCarloLocalizer final : public Localizer {
   using Observer = std::function<void(const Estimate&)>;
 
   /// @param streams table that Event::stream indexes
+  /// @param maps the main one has an occupancy grid
   /// @throws ConfigurationError if the options do not fit the streams or the map, or the start is off the map
   MonteCarloLocalizer(const LocalizerOptions& options, const std::vector<StreamInfo>& streams,
-                      const OccupancyGrid& map, const Start& start, std::uint64_t seed,
+                      const MapLibrary& maps, const Start& start, std::uint64_t seed,
                       std::shared_ptr<const Executor> executor);
 
   /// Called with the belief at the stamp of every scan that was used or not needed, in the order of the
@@ -62,12 +63,12 @@ class MonteCarloLocalizer final : public Localizer {
   };
   /// One stream's sensor model at two widths; both null for a stream that is not bound.
   struct LaserModels {
-    std::unique_ptr<const LikelihoodField> fine;
-    std::unique_ptr<const LikelihoodField> coarse;  ///< while the belief is spread over several places
+    std::shared_ptr<const LaserModel> fine;
+    std::shared_ptr<const LaserModel> coarse;  ///< while the belief is spread over several places
   };
   using Filter = ParticleFilter<Pose2, Pose2>;
 
-  void bind_streams(const std::vector<StreamInfo>& streams, const OccupancyGrid& map);
+  void bind_streams(const std::vector<StreamInfo>& streams, const MapLibrary& maps);
   void start_near(const Pose2& pose, const GridGeometry& grid);
   void start_anywhere(const BoundUpdate<Pose2>& z);
 
@@ -81,7 +82,7 @@ class MonteCarloLocalizer final : public Localizer {
   void settle_held(Outcome outcome);
   void count(StreamId stream, Outcome outcome);
   bool moved_enough(const Pose2& T_last_now) const;
-  Estimate summarize(const LaserScan& scan, const LikelihoodField& model) const;
+  Estimate summarize(const LaserScan& scan, const LaserModel& model) const;
 
   LocalizerOptions options_;
   std::optional<StreamId> odometry_stream_;

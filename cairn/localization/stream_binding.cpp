@@ -41,13 +41,11 @@ void check_names(const LocalizerOptions& options, const std::vector<StreamInfo>&
 
 }  // namespace
 
-void MonteCarloLocalizer::bind_streams(const std::vector<StreamInfo>& streams, const OccupancyGrid& map) {
+void MonteCarloLocalizer::bind_streams(const std::vector<StreamInfo>& streams, const MapLibrary& maps) {
   check_names(options_, streams);
   odometry_stream_ = find_odometry(streams, options_.odometry_stream);
-  const auto field = std::make_shared<const DistanceField>(map, options_.laser.max_distance_m);
-  LikelihoodFieldOptions coarse = options_.laser;
-  coarse.sigma_hit_m = options_.global.sigma_hit_m;
-  coarse.effective_beams = options_.global.effective_beams;
+  const LaserModelOptions coarse =
+      widened(options_.laser, options_.global.sigma_hit_m, options_.global.effective_beams);
   bool any = false;
   for (const StreamInfo& stream : streams) {
     stream_names_.push_back(stream.name);
@@ -61,8 +59,10 @@ void MonteCarloLocalizer::bind_streams(const std::vector<StreamInfo>& streams, c
     const Pose2 T_base_sensor =
         laser.mount_from_log && stream.T_base_sensor ? *stream.T_base_sensor : laser.T_base_sensor;
     LaserModels& models = laser_models_.back();
-    models.fine = std::make_unique<const LikelihoodField>(field, T_base_sensor, laser.limits, options_.laser);
-    models.coarse = std::make_unique<const LikelihoodField>(field, T_base_sensor, laser.limits, coarse);
+    const std::string& name = laser.model.empty() ? options_.laser.model : laser.model;
+    const MapSet& map = maps.at(laser.map);
+    models.fine = make_laser_model(name, {map, T_base_sensor, laser.limits, options_.laser});
+    models.coarse = make_laser_model(name, {map, T_base_sensor, laser.limits, coarse});
     any = true;
   }
   if (!any) {

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "cairn/bayes/models.hpp"
 #include "cairn/core/options.hpp"
 #include "cairn/core/pose2.hpp"
 #include "cairn/maps/distance_field.hpp"
 #include "cairn/models/sensor/beam_selection.hpp"
+#include "cairn/models/sensor/laser_model.hpp"
 #include "cairn/sensing/laser_scan.hpp"
 
 #include <memory>
@@ -29,7 +29,7 @@ struct LikelihoodFieldOptions {
 /// where d_k is the distance from the end point of beam k to the nearest occupied cell. Neighbouring beams
 /// see the same wall and the same map errors, so a scan of K beams holds fewer than K independent facts: the
 /// exponent s says how many. Where no occupied cell is near, and off the map, d_k is `max_distance_m`.
-class LikelihoodField final : public SensorModel<Pose2, LaserScan> {
+class LikelihoodField final : public LaserModel {
  public:
   /// @param T_base_sensor where the scanner sits on the robot
   LikelihoodField(std::shared_ptr<const DistanceField> field, const Pose2& T_base_sensor,
@@ -40,7 +40,7 @@ class LikelihoodField final : public SensorModel<Pose2, LaserScan> {
   BoundUpdate<Pose2> bind(const LaserScan& scan) const override;
 
   /// Share of the evaluated beams that end within 3 sigma_hit of a wall, seen from `T_map_base`: 0..1.
-  double explained_share(const LaserScan& scan, const Pose2& T_map_base) const;
+  double explained_share(const LaserScan& scan, const Pose2& T_map_base) const override;
 
  private:
   struct Table;
