@@ -16,6 +16,8 @@ function(cairn_compile_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
     -ffp-contract=off $<$<BOOL:${CAIRN_WERROR}>:-Werror>)
+  # The paths of cairn/core/simd.hpp; SSSE3 would add nothing but compile time.
+  target_compile_definitions(${target} PRIVATE HWY_DISABLED_TARGETS=HWY_SSSE3)
   set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_EXTENSIONS OFF)
 endfunction()
 

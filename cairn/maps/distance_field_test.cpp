@@ -39,9 +39,10 @@ void expect_exact(int width, int height, const std::vector<OccupancyGrid::Cell>&
   const DistanceField field(grid, max_distance_m);
   EXPECT_EQ(field.geometry(), grid.geometry());
   const auto expected = brute_force(grid, max_distance_m);
-  ASSERT_EQ(field.distances_m().size(), expected.size());
+  const std::vector<float> distances = field.all_distances_m();
+  ASSERT_EQ(distances.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
-    EXPECT_FLOAT_EQ(field.distances_m()[i], expected[i]) << width << " x " << height << ", cell " << i;
+    EXPECT_FLOAT_EQ(distances[i], expected[i]) << width << " x " << height << ", cell " << i;
   }
 }
 
@@ -80,20 +81,20 @@ TEST(DistanceField, OneWallInEveryPlace) {
 TEST(DistanceField, FullAndSingleCells) {
   expect_exact(6, 4, std::vector<OccupancyGrid::Cell>(24, kWall));
   expect_exact(1, 1, {kWall});
-  EXPECT_EQ(DistanceField(OccupancyGrid({1, 1, 0.1, {}}, {kWall}), 2.0).distances_m()[0], 0.0f);
+  EXPECT_EQ(DistanceField(OccupancyGrid({1, 1, 0.1, {}}, {kWall}), 2.0).distance_m(0), 0.0f);
 }
 
 TEST(DistanceField, WithoutAWallEverythingIsFar) {
   for (const auto& [width, height] : {std::pair{1, 1}, {6, 4}, {1, 9}, {9, 1}}) {
     const std::vector<OccupancyGrid::Cell> cells(static_cast<std::size_t>(width * height), 0);
     const DistanceField field(OccupancyGrid({width, height, 0.1, {}}, cells), 2.5);
-    for (const float d : field.distances_m()) EXPECT_EQ(d, 2.5f);
+    for (const float d : field.all_distances_m()) EXPECT_EQ(d, 2.5f);
   }
 }
 
 TEST(DistanceField, UnknownCellsAreNoWalls) {
   const DistanceField field(OccupancyGrid({3, 1, 1.0, {}}, {-1, 50, kWall}), 9.0);
-  EXPECT_EQ(field.distances_m(), (std::vector<float>{2.0f, 1.0f, 0.0f}));
+  EXPECT_EQ(field.all_distances_m(), (std::vector<float>{2.0f, 1.0f, 0.0f}));
 }
 
 TEST(DistanceField, IsCutAtTheLargestDistance) {
@@ -101,16 +102,16 @@ TEST(DistanceField, IsCutAtTheLargestDistance) {
   cells[0] = kWall;
   const DistanceField field(OccupancyGrid({100, 1, 0.1, {}}, cells), 2.0);
   EXPECT_EQ(field.max_distance_m(), 2.0);
-  EXPECT_FLOAT_EQ(field.distances_m()[19], 1.9f);
-  EXPECT_EQ(field.distances_m()[20], 2.0f);
-  EXPECT_EQ(field.distances_m()[99], 2.0f);
+  EXPECT_FLOAT_EQ(field.distance_m(19), 1.9f);
+  EXPECT_EQ(field.distance_m(20), 2.0f);
+  EXPECT_EQ(field.distance_m(99), 2.0f);
 }
 
 TEST(DistanceField, AWallAtTheFarEndOfALongRow) {
   std::vector<OccupancyGrid::Cell> cells(20'000, 0);
   cells.back() = kWall;
   const DistanceField field(OccupancyGrid({20'000, 1, 0.05, {}}, cells), 1e4);
-  EXPECT_FLOAT_EQ(field.distances_m()[0], static_cast<float>(19'999 * 0.05));
+  EXPECT_FLOAT_EQ(field.distance_m(0), static_cast<float>(19'999 * 0.05));
 }
 
 TEST(DistanceField, RefusesALargestDistanceThatIsNotPositive) {

@@ -67,7 +67,7 @@ LikelihoodField::Table::Table(const DistanceField& field, const LikelihoodFieldO
   log_likelihood.assign(stride * (rows + 2), log_p(field.max_distance_m()));
   for (std::size_t row = 0; row < rows; ++row) {
     for (std::size_t column = 0; column < columns; ++column) {
-      log_likelihood[(row + 1) * stride + column + 1] = log_p(field.distances_m()[row * columns + column]);
+      log_likelihood[(row + 1) * stride + column + 1] = log_p(field.distance_m(row * columns + column));
     }
   }
 }
@@ -107,7 +107,7 @@ double LikelihoodField::explained_share(const LaserScan& scan, const Pose2& T_ma
     const Point2 cell = grid.to_cells(T_map_base * p);
     if (!(cell.x >= 0 && cell.x < grid.width && cell.y >= 0 && cell.y < grid.height)) continue;
     const float distance =
-        field_->distances_m()[grid.index(static_cast<int>(cell.x), static_cast<int>(cell.y))];
+        field_->distance_m(grid.index(static_cast<int>(cell.x), static_cast<int>(cell.y)));
     explained += distance <= kExplainedSigmas * options_.sigma_hit_m ? 1 : 0;
   }
   return points.empty() ? 0.0 : static_cast<double>(explained) / static_cast<double>(points.size());

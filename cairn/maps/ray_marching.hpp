@@ -1,0 +1,37 @@
+#pragma once
+
+#include "cairn/maps/grid_ray_caster.hpp"
+#include "cairn/maps/occupancy_grid.hpp"
+
+#include <memory>
+#include <span>
+
+namespace cairn {
+
+/// Casts many rays in one occupancy grid: the same bearings from many poses, as a beam model needs them.
+class RayMarcher {
+ public:
+  /// @param max_range_m what a ray returns that meets nothing before
+  /// @throws ConfigurationError if `max_range_m` is not positive
+  RayMarcher(const OccupancyGrid& grid, double max_range_m, RayStop stop = RayStop::kOccupied);
+  ~RayMarcher();
+  RayMarcher(RayMarcher&&) noexcept;
+  RayMarcher& operator=(RayMarcher&&) noexcept;
+
+  double max_range_m() const { return max_range_m_; }
+
+  /// Ranges (m) as cast_ray gives them, for every pose and every bearing.
+  /// @param T_map_sensor the poses; one that is not finite gets `max_range_m` for every bearing
+  /// @param bearings_rad directions of the rays in the sensor's frame
+  /// @param ranges_m ranges of pose i are [i * bearings, (i + 1) * bearings)
+  /// May be called from several threads at once; the ranges of a pose do not depend on the other poses.
+  void cast(std::span<const Pose2> T_map_sensor, std::span<const double> bearings_rad,
+            std::span<float> ranges_m) const;
+
+ private:
+  struct Field;
+  std::unique_ptr<const Field> field_;
+  double max_range_m_;
+};
+
+}  // namespace cairn
