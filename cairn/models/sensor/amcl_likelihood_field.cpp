@@ -17,7 +17,7 @@ double distance_at(const DistanceField& field, double column, double row) {
   const GridGeometry& grid = field.geometry();
   if (!(column >= 0.0 && column < grid.width && row >= 0.0 && row < grid.height))
     return field.max_distance_m();
-  return field.distances_m()[grid.index(static_cast<int>(column), static_cast<int>(row))];
+  return field.distance_m(grid.index(static_cast<int>(column), static_cast<int>(row)));
 }
 
 }  // namespace
