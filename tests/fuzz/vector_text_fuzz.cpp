@@ -1,0 +1,9 @@
+#include "cairn/io/vector_text.hpp"
+#include "fuzz_target.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return cairn::fuzz::read_stream(data, size, [](std::istream& input) {
+    cairn::Diagnostics diagnostics;
+    cairn::read_vector_text(input, "fuzz", diagnostics);
+  });
+}
