@@ -38,7 +38,7 @@ void WallGrid::choose_cells(const std::vector<std::uint32_t>& seen, double cell_
     length += std::hypot(w.b.x - w.a.x, w.b.y - w.a.y);
   }
   const double walls = std::max(1.0, static_cast<double>(seen.size()));
-  const double wanted = cell_m > 0.0 ? cell_m : 0.5 * std::sqrt(width * height / walls);
+  const double wanted = cell_m > 0.0 ? cell_m : 0.6 * std::sqrt(width * height / walls);
   const double few_entries = kCellsPerLength * length / (kEntriesPerWall * walls + kFreeEntries);
   // The margin of 1 cell each way makes (w/c + 1)(h/c + 1) cells: bounded term by term.
   const double few_cells = std::max(
