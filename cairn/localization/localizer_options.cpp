@@ -1,5 +1,6 @@
 #include "cairn/localization/localizer_options.hpp"
 
+#include "cairn/bayes/resampling/resampling_schemes.hpp"
 #include "cairn/core/errors.hpp"
 
 #include <algorithm>
@@ -82,6 +83,8 @@ void FilterOptions::visit(OptionVisitor& v) {
   v.number(
       {"resample_ess_ratio", "recipe mcl resamples when the effective share of the particles is below this"},
       resample_ess_ratio, {0.0, 1.0});
+  v.choice({"resampling", "scheme that draws the ancestors of the next particles"}, resampling,
+           resampling_schemes());
   v.number({"min_ess_share",
             "a scan enters in portions that leave at least this effective share of the particles"},
            min_ess_share, {0.0, 0.9});

@@ -30,6 +30,7 @@ struct FilterOptions {
   int max_particles = 10000;
   KldOptions kld;
   double resample_ess_ratio = 0.5;  ///< recipe mcl
+  std::string resampling = "systematic";
   double min_ess_share = 0.15;
   PoseKernelOptions kernel;
 

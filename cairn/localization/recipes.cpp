@@ -1,5 +1,6 @@
 #include "cairn/localization/recipes.hpp"
 
+#include "cairn/bayes/resampling/resampling_schemes.hpp"
 #include "cairn/core/errors.hpp"
 
 namespace cairn {
@@ -10,8 +11,10 @@ using Filter = ParticleFilter<Pose2, Pose2>;
 Filter compose(const LocalizerOptions& options, std::unique_ptr<SampleSize<Pose2>> size,
                double resample_ess_ratio, std::uint64_t seed, std::shared_ptr<const Executor> executor) {
   auto motion = std::make_shared<const DifferentialDrive>(options.motion);
-  auto kernel = std::make_unique<PoseKernel>(options.filter.kernel);
-  return Filter(std::move(motion), std::move(size), std::move(kernel), std::move(executor),
+  Filter::Parts parts{.size = std::move(size),
+                      .resampling = make_resampling(options.filter.resampling),
+                      .regularization = std::make_unique<PoseKernel>(options.filter.kernel)};
+  return Filter(std::move(motion), std::move(parts), std::move(executor),
                 {.seed = seed,
                  .resample_ess_ratio = resample_ess_ratio,
                  .min_ess_share = options.filter.min_ess_share});

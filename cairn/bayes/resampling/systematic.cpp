@@ -1,15 +1,14 @@
 #include "cairn/bayes/resampling/systematic.hpp"
 
+#include "cairn/bayes/resampling/ancestor_search.hpp"
+
 namespace cairn {
 
 void draw_systematic(std::span<const double> cumulative, std::size_t count, double offset,
                      std::vector<std::uint32_t>& ancestors) {
-  const std::size_t last = cumulative.size() - 1;
-  std::size_t i = 0;
+  AncestorSearch search(cumulative);
   for (std::size_t tooth = 0; tooth < count; ++tooth) {
-    const double position = (static_cast<double>(tooth) + offset) / static_cast<double>(count);
-    while (i < last && cumulative[i] <= position) ++i;
-    ancestors.push_back(static_cast<std::uint32_t>(i));
+    ancestors.push_back(search.at((static_cast<double>(tooth) + offset) / static_cast<double>(count)));
   }
 }
 
