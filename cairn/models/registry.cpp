@@ -2,9 +2,11 @@
 
 #include "cairn/core/errors.hpp"
 #include "cairn/maps/distance_field.hpp"
+#include "cairn/maps/ray_marching.hpp"
 #include "cairn/models/sensor/amcl_likelihood_field.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace cairn {
 namespace {
@@ -32,10 +34,24 @@ std::shared_ptr<const LaserModel> make_likelihood_field(const LaserModelParts& p
                                                      parts.T_base_sensor, parts.limits, options);
 }
 
+// Nothing within reach of the scanner or inside the map is further away than this.
+double longest_ray_m(const GridGeometry& grid, const BeamLimits& limits) {
+  return std::min(limits.max_range_m, std::hypot(grid.width, grid.height) * grid.resolution_m);
+}
+
+std::shared_ptr<const LaserModel> make_beam(const LaserModelParts& parts) {
+  const auto grid = parts.maps.grid();
+  const double longest_m = longest_ray_m(grid->geometry(), parts.limits);
+  const auto marcher = parts.maps.derive<RayMarcher>(
+      std::to_string(longest_m), [&] { return std::make_shared<const RayMarcher>(*grid, longest_m); });
+  return std::make_shared<const BeamModel>(marcher, parts.T_base_sensor, parts.limits, parts.options.beam);
+}
+
 // The one table of names: a new sensor model of laser scans is one line here.
 constexpr LaserModelEntry kLaserModels[] = {
     {"likelihood_field_prob", make_likelihood_field_prob},
     {"likelihood_field", make_likelihood_field},
+    {"beam", make_beam},
 };
 
 }  // namespace
@@ -44,6 +60,8 @@ void LaserModelOptions::visit(OptionVisitor& v) {
   v.choice({"model", "sensor model of the streams that name none", {"laser_model_type"}}, model,
            laser_model_names());
   likelihood_field.visit(v);
+  v.section({"beam", "model beam: mixture on the range that the map predicts"},
+            [this](OptionVisitor& inner) { beam.visit(inner); });
 }
 
 void LaserModelOptions::validate() const {
@@ -55,6 +73,8 @@ void LaserModelOptions::validate() const {
 LaserModelOptions widened(LaserModelOptions options, double sigma_hit_m, double effective_beams) {
   options.likelihood_field.sigma_hit_m = sigma_hit_m;
   options.likelihood_field.effective_beams = effective_beams;
+  options.beam.sigma_hit_m = sigma_hit_m;
+  options.beam.effective_beams = effective_beams;
   return options;
 }
 

@@ -2,6 +2,7 @@
 
 #include "cairn/core/options.hpp"
 #include "cairn/maps/map_set.hpp"
+#include "cairn/models/sensor/beam_model.hpp"
 #include "cairn/models/sensor/beam_selection.hpp"
 #include "cairn/models/sensor/laser_model.hpp"
 #include "cairn/models/sensor/likelihood_field.hpp"
@@ -16,6 +17,7 @@ namespace cairn {
 struct LaserModelOptions {
   std::string model = "likelihood_field_prob";  ///< name in the registry, unless a stream names its own
   LikelihoodFieldOptions likelihood_field;      ///< likelihood_field_prob and likelihood_field
+  BeamModelOptions beam;
 
   void visit(OptionVisitor& visitor);
   /// @throws ConfigurationError for values that do not fit each other

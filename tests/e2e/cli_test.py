@@ -205,7 +205,7 @@ class Configuration(CliTest):
             self.assertIn(line, result.stdout)
         self.assertIn("AMCL parameter without counterpart", result.stderr)
         self.assertEqual(self.localize("--config", name).returncode, OK)
-        self.assertEqual(self.metrics()["warnings"]["AMCL parameter without counterpart"], 23)
+        self.assertEqual(self.metrics()["warnings"]["AMCL parameter without counterpart"], 20)
 
 
 class Files(CliTest):

@@ -6,34 +6,69 @@
 namespace cairn {
 namespace {
 
-std::vector<std::size_t> valid_beams(const LaserScan& scan, const BeamLimits& limits) {
-  std::vector<std::size_t> valid;
-  valid.reserve(scan.ranges_m.size());
+// Of `available` things, the middle of each of at most `wanted` (0: all) equal shares.
+class EvenChoice {
+ public:
+  EvenChoice(std::size_t available, int wanted)
+      : available_(available),
+        count_(wanted > 0 ? std::min(static_cast<std::size_t>(wanted), available) : available) {}
+  std::size_t count() const { return count_; }
+  std::size_t operator[](std::size_t k) const { return (2 * k + 1) * available_ / (2 * count_); }
+
+ private:
+  std::size_t available_;
+  std::size_t count_;
+};
+
+template <class Keep>
+std::vector<std::size_t> beams_that(const LaserScan& scan, const Keep& keep) {
+  std::vector<std::size_t> beams;
+  beams.reserve(scan.ranges_m.size());
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
-    const float range = scan.ranges_m[i];
-    if (scan.is_valid_range(range) && range >= limits.min_range_m && range < limits.max_range_m)
-      valid.push_back(i);
+    if (keep(scan.ranges_m[i])) beams.push_back(i);
   }
-  return valid;
+  return beams;
+}
+
+double bearing_of(const LaserScan& scan, std::size_t beam) {
+  return scan.angle_min_rad + static_cast<double>(beam) * scan.angle_increment_rad;
 }
 
 }  // namespace
 
 std::vector<Point2> select_end_points(const LaserScan& scan, const Pose2& T_base_sensor,
                                       const BeamLimits& limits, int max_beams) {
-  const std::vector<std::size_t> valid = valid_beams(scan, limits);
-  const std::size_t wanted = max_beams > 0 ? static_cast<std::size_t>(max_beams) : valid.size();
-  const std::size_t count = std::min(wanted, valid.size());
+  const std::vector<std::size_t> valid = beams_that(scan, [&](float range) {
+    return scan.is_valid_range(range) && range >= limits.min_range_m && range < limits.max_range_m;
+  });
+  const EvenChoice chosen(valid.size(), max_beams);
   std::vector<Point2> points;
-  points.reserve(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t i =
-        valid[(2 * k + 1) * valid.size() / (2 * count)];  // the middle of the k-th equal share
-    const double angle = scan.angle_min_rad + static_cast<double>(i) * scan.angle_increment_rad;
-    const double range = scan.ranges_m[i];
+  points.reserve(chosen.count());
+  for (std::size_t k = 0; k < chosen.count(); ++k) {
+    const double angle = bearing_of(scan, valid[chosen[k]]);
+    const double range = scan.ranges_m[valid[chosen[k]]];
     points.push_back(T_base_sensor * Point2{range * std::cos(angle), range * std::sin(angle)});
   }
   return points;
+}
+
+double reach_m(const LaserScan& scan, const BeamLimits& limits) {
+  return std::min(scan.range_max_m, limits.max_range_m);
+}
+
+std::vector<BeamReading> select_readings(const LaserScan& scan, const BeamLimits& limits, int max_beams) {
+  const double least = std::max(scan.range_min_m, limits.min_range_m);
+  const double reach = reach_m(scan, limits);
+  const std::vector<std::size_t> telling =
+      beams_that(scan, [&](float range) { return range > 0.0f && range >= least; });
+  const EvenChoice chosen(telling.size(), max_beams);
+  std::vector<BeamReading> readings;
+  readings.reserve(chosen.count());
+  for (std::size_t k = 0; k < chosen.count(); ++k) {
+    const double range = scan.ranges_m[telling[chosen[k]]];
+    readings.push_back({bearing_of(scan, telling[chosen[k]]), std::min(range, reach), range < reach});
+  }
+  return readings;
 }
 
 }  // namespace cairn
