@@ -44,7 +44,7 @@ void whole_step(benchmark::State& state) {
   LocalizerOptions options;
   options.recipe = "mcl";
   options.filter.particles = static_cast<int>(state.range(0));
-  options.filter.resample_ess_ratio = 1.0;
+  options.filter.resample.ess_ratio = 1.0;
   auto filter = make_filter(options, 1, std::make_shared<const Executor>(1));
   const std::vector<Pose2> start = tracking_particles(static_cast<std::size_t>(state.range(0)));
   filter.initialize([&](const RandomStream&, std::uint32_t i) { return start[i]; });

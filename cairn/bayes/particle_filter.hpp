@@ -8,6 +8,7 @@
 #include "cairn/bayes/resampling/systematic.hpp"
 #include "cairn/bayes/sample_size.hpp"
 #include "cairn/bayes/tempering.hpp"
+#include "cairn/bayes/triggers/ess_ratio.hpp"
 #include "cairn/core/errors.hpp"
 #include "cairn/core/executor.hpp"
 #include "cairn/core/statistics.hpp"
@@ -23,6 +24,7 @@ namespace cairn {
 struct ParticleFilterOptions {
   std::uint64_t seed = 1;
   /// Resample when ESS / N is below this: 1 before every prediction (unless all weights are equal), 0 never.
+  /// A trigger among the parts decides instead.
   double resample_ess_ratio = 1.0;
   /// A measurement enters in portions that leave at least this effective share of the particles (see
   /// correct); 0: all at once.
@@ -34,9 +36,10 @@ template <class State>
 struct ParticleFilterParts {
   std::unique_ptr<SampleSize<State>> size;                                  ///< must be there
   std::unique_ptr<Resampling> resampling = std::make_unique<Systematic>();  ///< must be there
-  std::unique_ptr<Regularization<State>> regularization = nullptr;          ///< null: none
-  std::unique_ptr<Refinement<State>> refinement = nullptr;                  ///< null: none
-  std::unique_ptr<Injection<State>> injection = nullptr;                    ///< null: none
+  std::unique_ptr<const Trigger> resample_when = nullptr;           ///< null: EssRatio(resample_ess_ratio)
+  std::unique_ptr<Regularization<State>> regularization = nullptr;  ///< null: none
+  std::unique_ptr<Refinement<State>> refinement = nullptr;          ///< null: none
+  std::unique_ptr<Injection<State>> injection = nullptr;            ///< null: none
 };
 
 /// All that changes in a particle filter from step to step.
@@ -49,6 +52,7 @@ struct ParticleFilterCheckpoint {
   double share_entered = 1.0;
   bool compact = false;
   bool corrected = false;
+  SinceLast since_resampling;
 };
 
 /// Sequential importance resampling over any state (Thrun et al., Probabilistic Robotics, table 4.3), with
@@ -62,6 +66,7 @@ class ParticleFilter {
  public:
   using Parts = ParticleFilterParts<State>;
   using Checkpoint = ParticleFilterCheckpoint<State>;
+  using Motion = MotionModel<State, Control>;
 
   ParticleFilter(std::shared_ptr<const MotionModel<State, Control>> motion, Parts parts,
                  std::shared_ptr<const Executor> executor, const ParticleFilterOptions& options)
@@ -70,6 +75,8 @@ class ParticleFilter {
         executor_(std::move(executor)),
         options_(options) {
     CAIRN_ASSERT(parts_.size && parts_.resampling);
+    if (!parts_.resample_when)
+      parts_.resample_when = std::make_unique<const EssRatio>(options.resample_ess_ratio);
   }
 
   /// With systematic resampling, no refinement and no injection.
@@ -103,14 +110,18 @@ class ParticleFilter {
   }
 
   /// x' ~ p(x' | u, x), after resampling if that is due. There may be any number of predictions in a row.
-  void predict(const Control& u) {
+  void predict(const Control& u) { predict(u, *motion_); }
+
+  /// Likewise with another motion model than usual: where the usual control is missing, for example.
+  void predict(const Control& u, const Motion& motion) {
     ++step_;
     corrected_ = false;
-    if (ess_ < options_.resample_ess_ratio * static_cast<double>(particles_.size())) {
-      resample_and_move(u);
+    if (resampling_is_due()) {
+      resample_and_move(u, motion);
     } else {
-      move(u, particles_.states, 0);
+      move(u, motion, particles_.states, 0);
     }
+    since_resampling_.add_motion(u);
   }
 
   /// w = p(z | x'). There may be any number of corrections in a row: measurements of the same time.
@@ -120,7 +131,7 @@ class ParticleFilter {
   /// next portion finds them where the posterior is. Without a regularization one portion enters, the rest is
   /// given up.
   void correct(const BoundUpdate<State>& z) {
-    begin_correction();
+    begin_correction(z);
     if (parts_.refinement) refine(z);
     double left = 1.0;
     for (std::uint32_t pass = 0;; ++pass) {
@@ -151,6 +162,7 @@ class ParticleFilter {
     checkpoint.share_entered = share_entered_;
     checkpoint.compact = compact_;
     checkpoint.corrected = corrected_;
+    checkpoint.since_resampling = since_resampling_;
     checkpoint.parts.clear();
     for_each_part([&](const FilterPart& part) { part.save(checkpoint.parts); });
   }
@@ -170,6 +182,7 @@ class ParticleFilter {
     share_entered_ = checkpoint.share_entered;
     compact_ = checkpoint.compact;
     corrected_ = checkpoint.corrected;
+    since_resampling_ = checkpoint.since_resampling;
     PartMemory::Reader memory(checkpoint.parts);
     for_each_part([&](FilterPart& part) { part.load(memory); });
   }
@@ -184,9 +197,16 @@ class ParticleFilter {
   static constexpr std::uint32_t kInjectionDrawing = kMostPasses + 1;
   static constexpr double kNegligibleShare = 0.01;
 
+  // Equal weights leave nothing to resample.
+  bool resampling_is_due() {
+    since_resampling_.ess = ess_;
+    since_resampling_.particles = static_cast<double>(particles_.size());
+    return ess_ < since_resampling_.particles && parts_.resample_when->due(since_resampling_);
+  }
+
   // Fox 2003, table 1: draw ancestors and predict them until there are as many as the predicted spread asks
   // for. Each batch is one drawing over all ancestors.
-  void resample_and_move(const Control& u) {
+  void resample_and_move(const Control& u, const Motion& motion) {
     cumulative_weights(particles_.log_weights, cumulative_);
     const RandomStream random = stream(RandomPurpose::kResample);
     next_.clear();
@@ -198,25 +218,28 @@ class ParticleFilter {
                      : std::min(std::max(wanted - first, kSmallestBatch), parts_.size->most() - first);
       draw_ancestors(count, {random, batch, static_cast<std::uint32_t>(first)});
       const std::span<State> drawn = std::span(next_).subspan(first);
-      move(u, drawn, first);
+      move(u, motion, drawn, first);
       if (parts_.regularization && !compact_) spread(drawn, first, kWideMoveDraw);
       wanted = parts_.size->wanted(drawn);
     }
     take_next_generation();
+    since_resampling_ = {.last = since_resampling_.now, .now = since_resampling_.now};
   }
 
-  void move(const Control& u, std::span<State> states, std::size_t first) {
+  void move(const Control& u, const Motion& motion, std::span<State> states, std::size_t first) {
     const RandomStream random = stream(RandomPurpose::kMotion);
     executor_->for_each_chunk(states.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-      motion_->propagate(u, states.subspan(begin, end - begin),
-                         random.from_item(static_cast<std::uint32_t>(first + begin)));
+      motion.propagate(u, states.subspan(begin, end - begin),
+                       random.from_item(static_cast<std::uint32_t>(first + begin)));
     });
   }
 
   // A second measurement after one prediction needs random numbers of its own.
-  void begin_correction() {
+  void begin_correction(const BoundUpdate<State>& z) {
     if (corrected_) ++step_;
     corrected_ = true;
+    since_resampling_.now = z.stamp;
+    ++since_resampling_.updates;
   }
 
   void refine(const BoundUpdate<State>& z) {
@@ -327,6 +350,7 @@ class ParticleFilter {
   double log_mean_likelihood_ = 0.0;  ///< of the measurement in correct()
   bool compact_ = false;
   bool corrected_ = false;  ///< since the last prediction
+  SinceLast since_resampling_;
 };
 
 // Poses in a plane, moved by odometry: compiled once, in particle_filter.cpp.

@@ -80,11 +80,10 @@ void FilterOptions::visit(OptionVisitor& v) {
   v.integer({"max_particles", "most particles of the recipe kld_mcl"}, max_particles, count);
   v.section({"kld", "KLD-sampling: how the number of particles follows the spread of the belief"},
             [this](OptionVisitor& inner) { kld.visit(inner); });
-  v.number(
-      {"resample_ess_ratio", "recipe mcl resamples when the effective share of the particles is below this"},
-      resample_ess_ratio, {0.0, 1.0});
   v.choice({"resampling", "scheme that draws the ancestors of the next particles"}, resampling,
            resampling_schemes());
+  v.section({"resample", "when the particles are resampled"},
+            [this](OptionVisitor& inner) { resample.visit(inner); });
   v.number({"min_ess_share",
             "a scan enters in portions that leave at least this effective share of the particles"},
            min_ess_share, {0.0, 0.9});

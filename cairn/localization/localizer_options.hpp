@@ -2,6 +2,7 @@
 
 #include "cairn/bayes/kld.hpp"
 #include "cairn/bayes/pose_kernel.hpp"
+#include "cairn/bayes/triggers/triggers.hpp"
 #include "cairn/core/options.hpp"
 #include "cairn/models/motion/differential_drive.hpp"
 #include "cairn/models/registry.hpp"
@@ -29,8 +30,8 @@ struct FilterOptions {
   int min_particles = 500;  ///< recipe kld_mcl
   int max_particles = 10000;
   KldOptions kld;
-  double resample_ess_ratio = 0.5;  ///< recipe mcl
   std::string resampling = "systematic";
+  TriggerOptions resample;  ///< when; recipe kld_mcl reads `ess` as: before every prediction
   double min_ess_share = 0.15;
   PoseKernelOptions kernel;
 
