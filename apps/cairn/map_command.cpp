@@ -1,5 +1,6 @@
 #include "apps/cairn/commands.hpp"
 #include "apps/cairn/map_building.hpp"
+#include "apps/cairn/map_convert.hpp"
 #include "apps/cairn/output_file.hpp"
 #include "apps/cairn/pose_option.hpp"
 #include "apps/cairn/progress.hpp"
@@ -135,9 +136,13 @@ std::string as_text(const MapFigures& f) {
 
 int run_info(const InfoArguments& arguments) {
   Diagnostics diagnostics;
-  const auto grid = read_map(arguments.map, diagnostics);
+  const AnyMap map = read_any_map(arguments.map, diagnostics);
   warn_of(arguments.map, diagnostics);
-  const MapFigures figures(*grid);
+  if (const auto* walls = std::get_if<std::shared_ptr<const VectorMap>>(&map)) {
+    std::cout << describe(**walls, arguments.json);
+    return kOk;
+  }
+  const MapFigures figures(*std::get<std::shared_ptr<const OccupancyGrid>>(map));
   std::cout << (arguments.json ? as_json(figures) : as_text(figures));
   return kOk;
 }
@@ -176,7 +181,8 @@ void add_build(CLI::App& parent, Runner& run) {
 void add_info(CLI::App& parent, Runner& run) {
   auto* command = parent.add_subcommand("info", "Size, place, shares and checksum of a map");
   auto a = std::make_shared<InfoArguments>();
-  command->add_option("MAP", a->map, "map_server YAML file, or Wean map")->required();
+  command->add_option("MAP", a->map, "map_server YAML file, Wean map, or vector map (text, GeoJSON)")
+      ->required();
   command->add_flag("--json", a->json, "Print JSON (m, rad)");
   command->callback([a, &run] { run = [a] { return run_info(*a); }; });
 }
@@ -188,6 +194,7 @@ void add_map(CLI::App& program, Runner& run) {
   command->require_subcommand(0, 1);
   add_build(*command, run);
   add_info(*command, run);
+  add_map_convert(*command, run);
 }
 
 }  // namespace cairn::app

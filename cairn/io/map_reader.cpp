@@ -1,15 +1,21 @@
 #include "cairn/io/map_reader.hpp"
 
 #include "cairn/core/errors.hpp"
+#include "cairn/io/geojson.hpp"
 #include "cairn/io/gray_image.hpp"
 #include "cairn/io/input_file.hpp"
 #include "cairn/io/map_yaml.hpp"
+#include "cairn/io/vector_text.hpp"
 #include "cairn/io/wean_map.hpp"
+#include "cairn/maps/wall_drawing.hpp"
+
+#include <algorithm>
+#include <cmath>
 
 namespace cairn {
 namespace {
 
-constexpr std::size_t kFirstBytes = 32;
+constexpr std::size_t kFirstBytes = 1024;
 constexpr std::size_t kMaxYamlBytes = 1 << 20;
 
 std::string first_bytes(std::istream& input) {
@@ -39,23 +45,58 @@ OccupancyGrid read_yaml_map(std::istream& input, const std::filesystem::path& pa
   return to_grid(read_image(*open_input(picture), picture.string()), map);
 }
 
+constexpr double kDrawnResolution_m = 0.05;
+constexpr double kMostDrawnCells = 1e8;
+
+std::shared_ptr<const VectorMap> share(VectorMap map) {
+  return std::make_shared<const VectorMap>(std::move(map));
+}
+std::shared_ptr<const OccupancyGrid> share(OccupancyGrid grid) {
+  return std::make_shared<const OccupancyGrid>(std::move(grid));
+}
+
+std::shared_ptr<const OccupancyGrid> draw(const VectorMap& map) {
+  const Bounds2& b = map.bounds();
+  const double area = (b.max.x - b.min.x + 1.0) * (b.max.y - b.min.y + 1.0);
+  return share(
+      draw_walls(map, {.resolution_m = std::max(kDrawnResolution_m, std::sqrt(area / kMostDrawnCells))}));
+}
+
 }  // namespace
 
-std::shared_ptr<const OccupancyGrid> read_map(const std::filesystem::path& path, Diagnostics& diagnostics) {
+AnyMap read_any_map(const std::filesystem::path& path, Diagnostics& diagnostics) {
   const auto input = open_input(path);
   const std::string start = first_bytes(*input);
   if (looks_like_image(start)) {
     throw InputError(path.string(), "is a bare picture without scale and place", "name the map's .yaml file");
   }
-  if (looks_like_wean_map(start)) {
-    return std::make_shared<const OccupancyGrid>(read_wean_map(*input, path.string()));
-  }
-  return std::make_shared<const OccupancyGrid>(read_yaml_map(*input, path, diagnostics));
+  if (looks_like_wean_map(start)) return share(read_wean_map(*input, path.string()));
+  if (looks_like_geojson(start)) return share(read_geojson(*input, path.string(), diagnostics));
+  if (looks_like_vector_text(start)) return share(read_vector_text(*input, path.string(), diagnostics));
+  return share(read_yaml_map(*input, path, diagnostics));
+}
+
+std::shared_ptr<const OccupancyGrid> read_map(const std::filesystem::path& path, Diagnostics& diagnostics) {
+  const AnyMap map = read_any_map(path, diagnostics);
+  if (const auto* grid = std::get_if<std::shared_ptr<const OccupancyGrid>>(&map)) return *grid;
+  throw InputError(path.string(), "is a vector map; a grid is needed here",
+                   "make one with `cairn map convert`");
 }
 
 std::shared_ptr<const OccupancyGrid> read_map(const std::filesystem::path& path) {
   Diagnostics diagnostics;
   return read_map(path, diagnostics);
+}
+
+std::shared_ptr<MapSet> read_map_set(const std::filesystem::path& path, Diagnostics& diagnostics) {
+  const AnyMap map = read_any_map(path, diagnostics);
+  if (const auto* grid = std::get_if<std::shared_ptr<const OccupancyGrid>>(&map)) {
+    return std::make_shared<MapSet>(*grid);
+  }
+  const auto& walls = std::get<std::shared_ptr<const VectorMap>>(map);
+  auto maps = std::make_shared<MapSet>(draw(*walls));
+  maps->add(walls);
+  return maps;
 }
 
 }  // namespace cairn

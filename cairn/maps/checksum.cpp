@@ -34,4 +34,13 @@ std::uint64_t checksum(const OccupancyGrid& grid) {
   return fnv.hash();
 }
 
+std::uint64_t checksum(const VectorMap& map) {
+  Fnv1a fnv;
+  for (const Wall& wall : map.walls()) {
+    for (const double v : {wall.a.x, wall.a.y, wall.b.x, wall.b.y}) fnv.add(v);
+    fnv.add_byte(static_cast<std::uint8_t>(wall.material));
+  }
+  return fnv.hash();
+}
+
 }  // namespace cairn

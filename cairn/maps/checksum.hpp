@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cairn/maps/occupancy_grid.hpp"
+#include "cairn/maps/vector_map.hpp"
 
 #include <cstdint>
 
@@ -9,5 +10,7 @@ namespace cairn {
 /// Fingerprint of a grid: equal for equal geometry (to the bit) and equal states of all cells, the same on
 /// every machine (FNV-1a, 64 bits). It tells maps apart; it does not protect against forgery.
 std::uint64_t checksum(const OccupancyGrid& grid);
+/// Likewise of the walls, in their order.
+std::uint64_t checksum(const VectorMap& map);
 
 }  // namespace cairn
