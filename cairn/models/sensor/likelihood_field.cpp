@@ -1,13 +1,13 @@
 #include "cairn/models/sensor/likelihood_field.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 namespace cairn {
 namespace {
-
-constexpr double kExplainedSigmas = 3.0;
 
 double square(double x) { return x * x; }
 
@@ -33,83 +33,81 @@ void LikelihoodFieldOptions::visit(OptionVisitor& v) {
            effective_beams, {0.1, 100000});
 }
 
-// Log-likelihood of an end point per cell, with a border of one cell that stands for everything off the map.
-struct LikelihoodField::Table {
-  Table(const DistanceField& field, const LikelihoodFieldOptions& options);
-
-  float at(double column, double row) const {
-    // Clamped into the border as floating point, so that no far-away value overflows an index. In this order
-    // min() takes what is not a number to the border, too.
-    const auto c = static_cast<std::size_t>(std::max(0.0, std::min(last_column, column + 1.0)));
-    const auto r = static_cast<std::size_t>(std::max(0.0, std::min(last_row, row + 1.0)));
-    return log_likelihood[r * stride + c];
-  }
-
-  Pose2 T_grid_map;
-  double cells_per_m;
-  double last_column;
-  double last_row;
-  std::size_t stride;
-  std::vector<float> log_likelihood;
-};
-
-LikelihoodField::Table::Table(const DistanceField& field, const LikelihoodFieldOptions& o)
-    : T_grid_map(inverse(field.geometry().T_map_grid)),
-      cells_per_m(1.0 / field.geometry().resolution_m),
-      last_column(field.geometry().width + 1.0),
-      last_row(field.geometry().height + 1.0),
-      stride(static_cast<std::size_t>(field.geometry().width) + 2) {
-  const auto log_p = [&](double d) {
-    return static_cast<float>(std::log(o.z_hit * std::exp(-square(d / o.sigma_hit_m) / 2.0) + o.z_rand));
-  };
-  const auto rows = static_cast<std::size_t>(field.geometry().height);
-  const auto columns = static_cast<std::size_t>(field.geometry().width);
-  log_likelihood.assign(stride * (rows + 2), log_p(field.max_distance_m()));
-  for (std::size_t row = 0; row < rows; ++row) {
-    for (std::size_t column = 0; column < columns; ++column) {
-      log_likelihood[(row + 1) * stride + column + 1] = log_p(field.distance_m(row * columns + column));
-    }
-  }
+double LikelihoodFieldOptions::log_likelihood(double distance_m) const {
+  return std::log(z_hit * std::exp(-square(distance_m / sigma_hit_m) / 2.0) + z_rand);
 }
 
-LikelihoodField::LikelihoodField(std::shared_ptr<const DistanceField> field, const Pose2& T_base_sensor,
-                                 const BeamLimits& limits, const LikelihoodFieldOptions& options)
-    : field_(std::move(field)),
-      table_(std::make_shared<const Table>(*field_, options)),
+double LikelihoodFieldOptions::share_of(std::size_t beams) const {
+  return std::min(1.0, effective_beams / std::max(1.0, static_cast<double>(beams)));
+}
+
+// A bit per cell: is it within reach of a wall?
+class LikelihoodField::NearWalls {
+ public:
+  NearWalls(const DistanceField& field, double within_m)
+      : geometry_(field.geometry()), near_(field.geometry().size()) {
+    for (std::size_t i = 0; i < near_.size(); ++i) near_[i] = field.distance_m(i) <= within_m;
+  }
+
+  bool operator()(const Point2& p_map) const {
+    const Point2 cell = geometry_.to_cells(p_map);
+    const bool on_map =
+        cell.x >= 0.0 && cell.x < geometry_.width && cell.y >= 0.0 && cell.y < geometry_.height;
+    return on_map && near_[geometry_.index(static_cast<int>(cell.x), static_cast<int>(cell.y))];
+  }
+
+ private:
+  GridGeometry geometry_;
+  std::vector<bool> near_;
+};
+
+namespace {
+
+// Rounding to steps gives each beam an error of step / sqrt(12); the sum of as many as count at most, in nat,
+// shall not exceed this.
+constexpr double kLargestRounding = 0.025;
+
+LikelihoodPlane::Codes codes_for(const LikelihoodFieldOptions& o, double max_distance_m) {
+  const double step = (o.log_likelihood(0.0) - o.log_likelihood(max_distance_m)) / 255.0;
+  const double beams = o.max_beams > 0 ? std::min<double>(o.effective_beams, o.max_beams) : o.effective_beams;
+  const double error = step / std::sqrt(12.0) * std::sqrt(beams);
+  return error <= kLargestRounding ? LikelihoodPlane::Codes::k8Bit : LikelihoodPlane::Codes::k16Bit;
+}
+
+}  // namespace
+
+LikelihoodField::LikelihoodField(const std::shared_ptr<const DistanceField>& field,
+                                 const Pose2& T_base_sensor, const BeamLimits& limits,
+                                 const LikelihoodFieldOptions& options)
+    : plane_(std::make_shared<const LikelihoodPlane>(
+          *field, codes_for(options, field->max_distance_m()),
+          [&](double distance_m) { return options.log_likelihood(distance_m); })),
+      near_walls_(std::make_shared<const NearWalls>(*field, options.explained_within_m())),
       T_base_sensor_(T_base_sensor),
       limits_(limits),
       options_(options) {}
 
 BoundUpdate<Pose2> LikelihoodField::bind(const LaserScan& scan) const {
-  std::vector<Point2> points = select_end_points(scan, T_base_sensor_, limits_, options_.max_beams);
-  for (Point2& p : points) p = {p.x * table_->cells_per_m, p.y * table_->cells_per_m};
-  const double beams = std::max<double>(1.0, static_cast<double>(points.size()));
-  const double scale = std::min(1.0, options_.effective_beams / beams);
-  const auto evaluate = [table = table_, points = std::move(points), scale](std::span<const Pose2> states,
-                                                                            std::span<double> out) {
-    for (std::size_t i = 0; i < states.size(); ++i) {
-      const Pose2 T_grid_base = table->T_grid_map * states[i];
-      const double x = T_grid_base.x * table->cells_per_m, y = T_grid_base.y * table->cells_per_m;
-      const double c = std::cos(T_grid_base.theta), s = std::sin(T_grid_base.theta);
-      double sum = 0.0;
-      for (const Point2& p : points) sum += table->at(x + c * p.x - s * p.y, y + s * p.x + c * p.y);
-      out[i] = scale * sum;
+  const auto points = select_end_points(scan, T_base_sensor_, limits_, options_.max_beams);
+  const auto evaluate = [plane = plane_, beams = plane_->in_cells(points),
+                         scale = options_.share_of(points.size())](std::span<const Pose2> states,
+                                                                   std::span<double> out) {
+    constexpr std::size_t kAtOnce = 1024;
+    std::array<std::uint32_t, kAtOnce> sums;
+    for (std::size_t begin = 0; begin < states.size(); begin += kAtOnce) {
+      const std::size_t count = std::min(kAtOnce, states.size() - begin);
+      plane->sum_codes(beams, states.subspan(begin, count), std::span(sums).first(count));
+      for (std::size_t i = 0; i < count; ++i)
+        out[begin + i] = scale * plane->log_likelihood(beams.count, sums[i]);
     }
   };
   return {scan.stamp, evaluate};
 }
 
 double LikelihoodField::explained_share(const LaserScan& scan, const Pose2& T_map_base) const {
-  const std::vector<Point2> points = select_end_points(scan, T_base_sensor_, limits_, options_.max_beams);
-  const GridGeometry& grid = field_->geometry();
-  std::size_t explained = 0;
-  for (const Point2& p : points) {
-    const Point2 cell = grid.to_cells(T_map_base * p);
-    if (!(cell.x >= 0 && cell.x < grid.width && cell.y >= 0 && cell.y < grid.height)) continue;
-    const float distance =
-        field_->distance_m(grid.index(static_cast<int>(cell.x), static_cast<int>(cell.y)));
-    explained += distance <= kExplainedSigmas * options_.sigma_hit_m ? 1 : 0;
-  }
+  const auto points = select_end_points(scan, T_base_sensor_, limits_, options_.max_beams);
+  const auto explained = std::count_if(points.begin(), points.end(),
+                                       [&](const Point2& p) { return (*near_walls_)(T_map_base * p); });
   return points.empty() ? 0.0 : static_cast<double>(explained) / static_cast<double>(points.size());
 }
 

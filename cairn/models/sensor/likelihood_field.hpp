@@ -5,6 +5,7 @@
 #include "cairn/maps/distance_field.hpp"
 #include "cairn/models/sensor/beam_selection.hpp"
 #include "cairn/models/sensor/laser_model.hpp"
+#include "cairn/models/sensor/likelihood_plane.hpp"
 #include "cairn/sensing/laser_scan.hpp"
 
 #include <memory>
@@ -20,6 +21,13 @@ struct LikelihoodFieldOptions {
   double effective_beams = 20.0;  ///< a scan never counts for more than this many independent beams
 
   void visit(OptionVisitor& visitor);
+
+  /// log(z_hit exp(-d^2 / (2 sigma_hit^2)) + z_rand): of one beam that ends at distance d from a wall.
+  double log_likelihood(double distance_m) const;
+  /// min(1, effective_beams / beams): the share with which each of so many beams counts.
+  double share_of(std::size_t beams) const;
+  /// A beam that ends so close to a wall is explained by the map: 3 sigma_hit.
+  double explained_within_m() const { return 3.0 * sigma_hit_m; }
 };
 
 /// Likelihood field for range finders, the true product over the beams (Thrun et al., Probabilistic Robotics,
@@ -29,10 +37,16 @@ struct LikelihoodFieldOptions {
 /// where d_k is the distance from the end point of beam k to the nearest occupied cell. Neighbouring beams
 /// see the same wall and the same map errors, so a scan of K beams holds fewer than K independent facts: the
 /// exponent s says how many. Where no occupied cell is near, and off the map, d_k is `max_distance_m`.
+///
+/// The log-likelihoods of the cells are held in 255 steps, or in 65535 if the steps would show (when a scan
+/// counts for several hundred beams, or z_rand is tiny), and positions as floats: the score differs from that
+/// of LikelihoodFieldReference by less than 0.05 nat in the mean, 0.35 in one pose of a hundred. Every path
+/// of simd.hpp gives the same bytes. Memory: 1 or 2 bytes and a bit per cell.
 class LikelihoodField final : public LaserModel {
  public:
   /// @param T_base_sensor where the scanner sits on the robot
-  LikelihoodField(std::shared_ptr<const DistanceField> field, const Pose2& T_base_sensor,
+  /// @param field only read, not kept
+  LikelihoodField(const std::shared_ptr<const DistanceField>& field, const Pose2& T_base_sensor,
                   const BeamLimits& limits, const LikelihoodFieldOptions& options);
 
   /// States are T_map_base. A scan without a valid beam gives 0 everywhere; a state that is not finite scores
@@ -43,9 +57,9 @@ class LikelihoodField final : public LaserModel {
   double explained_share(const LaserScan& scan, const Pose2& T_map_base) const override;
 
  private:
-  struct Table;
-  std::shared_ptr<const DistanceField> field_;
-  std::shared_ptr<const Table> table_;
+  class NearWalls;
+  std::shared_ptr<const LikelihoodPlane> plane_;
+  std::shared_ptr<const NearWalls> near_walls_;
   Pose2 T_base_sensor_;
   BeamLimits limits_;
   LikelihoodFieldOptions options_;
