@@ -42,6 +42,7 @@ int main(int argc, char** argv) {
   cairn::app::Runner run;
   cairn::app::add_config(program, run);
   cairn::app::add_localize(program, run);
+  cairn::app::add_locate(program, run);
   cairn::app::add_log(program, run);
   cairn::app::add_map(program, run);
   cairn::app::add_report(program, run);

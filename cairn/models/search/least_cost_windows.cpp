@@ -40,7 +40,7 @@ LeastCostWindows::LeastCostWindows(const DistanceField& field, const LikelihoodF
   for (int row = 0; row < box.rows; ++row) {
     for (int column = 0; column < box.columns; ++column) {
       const std::size_t cell = field.geometry().index(box.first_column + column, box.first_row + row);
-      costs_.push_back(static_cast<float>(negative_log(model, field.distances_m()[cell]) - least_));
+      costs_.push_back(static_cast<float>(negative_log(model, field.distance_m(cell)) - least_));
     }
   }
   planes_.push_back(quantised());

@@ -52,7 +52,7 @@ CellBox known_cells(const OccupancyGrid& map, const DistanceField& field) {
   for (int row = 0; row < grid.height; ++row) {
     for (int column = 0; column < grid.width; ++column) {
       const std::size_t cell = grid.index(column, row);
-      const bool near_wall = field.distances_m()[cell] < static_cast<float>(field.max_distance_m());
+      const bool near_wall = field.distance_m(cell) < static_cast<float>(field.max_distance_m());
       if (!near_wall && map.state(cell) != CellState::kFree) continue;
       left = std::min(left, column), right = std::max(right, column);
       bottom = std::min(bottom, row), top = std::max(top, row);

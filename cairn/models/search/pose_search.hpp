@@ -22,8 +22,8 @@ struct PoseSearchQuery {
   double separation_m = 1.0;     ///< poses nearer than this ...
   double separation_rad = 0.35;  ///< ... and turned by less than this are not distinct
   double margin = 1e9;           ///< poses whose log-likelihood is this far below the best are not looked for
-  std::int64_t budget = 200'000'000;  ///< evaluated end points
-  std::optional<MapRegion> region;    ///< where the robot may be; nullopt: wherever the map is free
+  std::int64_t budget = 200'000'000;     ///< evaluated end points
+  std::optional<MapRegion> region = {};  ///< where the robot may be; nullopt: wherever the map is free
 };
 
 struct FoundPose {
