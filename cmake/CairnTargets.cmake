@@ -21,9 +21,10 @@ function(cairn_compile_options target)
   set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_EXTENSIONS OFF)
 endfunction()
 
-# cairn_add_test(NAME SOURCES... LIBRARIES...)
+# cairn_add_test(NAME [LABEL label] SOURCES... LIBRARIES... [ENVIRONMENT VARIABLE=value])
+# Labels: unit (the default) conformance property golden statistical e2e.
 function(cairn_add_test name)
-  cmake_parse_arguments(ARG "" "LABEL" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "" "LABEL;ENVIRONMENT" "SOURCES;LIBRARIES" ${ARGN})
   if(NOT ARG_LABEL)
     set(ARG_LABEL unit)
   endif()
@@ -32,7 +33,8 @@ function(cairn_add_test name)
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main)
   # Tests look for recordings in CAIRN_DATA, then in this folder beside the checkout.
   target_compile_definitions(${name} PRIVATE CAIRN_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  gtest_discover_tests(${name} PROPERTIES LABELS ${ARG_LABEL} DISCOVERY_TIMEOUT 60)
+  gtest_discover_tests(${name} PROPERTIES LABELS ${ARG_LABEL} ENVIRONMENT "${ARG_ENVIRONMENT}"
+                       DISCOVERY_TIMEOUT 60)
 endfunction()
 
 # cairn_add_library(NAME [SUBFOLDERS folders...] PUBLIC libs... PRIVATE libs...)

@@ -1,14 +1,13 @@
+// Against exact answers: tests/statistical/particle_filter_oracles_test.cpp.
 #include "cairn/bayes/particle_filter.hpp"
 
 #include "cairn/bayes/pose_kernel.hpp"
 #include "cairn/core/angle.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <memory>
-#include <numeric>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -40,86 +39,6 @@ double expectation(const ParticleSet<State>& particles, const std::function<doub
     sum += std::exp(particles.log_weights[i]) * f(particles.states[i]);
   return sum;
 }
-
-// --- Against the exact Kalman filter: x' = x + u + noise, z = x + noise.
-
-struct Walk final : MotionModel<double, double> {
-  double sigma;
-  explicit Walk(double s) : sigma(s) {}
-  void propagate(const double& u, std::span<double> states, const RandomStream& random) const override {
-    for (std::size_t i = 0; i < states.size(); ++i)
-      states[i] += u + sigma * random.normal4(static_cast<std::uint32_t>(i))[0];
-  }
-};
-
-struct Gaussian {
-  double mean;
-  double variance;
-};
-
-constexpr double kMotionSigma = 0.5, kSensorSigma = 0.7;
-constexpr Gaussian kPrior{1.0, 4.0};
-struct Step {
-  double u, z;
-};
-constexpr std::array kSteps = {Step{1.0, 2.9}, Step{1.0, 3.1}, Step{0.5, 4.4}, Step{-1.0, 2.2},
-                               Step{0.0, 3.6}, Step{2.0, 5.0}, Step{1.0, 5.2}};
-
-Gaussian kalman() {
-  Gaussian belief = kPrior;
-  for (const Step& step : kSteps) {
-    const double predicted = belief.variance + kMotionSigma * kMotionSigma;
-    const double gain = predicted / (predicted + kSensorSigma * kSensorSigma);
-    belief.mean += step.u;
-    belief = {belief.mean + gain * (step.z - belief.mean), (1.0 - gain) * predicted};
-  }
-  return belief;
-}
-
-Gaussian particle_filter(std::uint64_t seed, double resample_ess_ratio) {
-  auto filter = filter_with<double, double>(Walk(kMotionSigma), 4000, {seed, resample_ess_ratio, 0.0});
-  filter.initialize([](const RandomStream& random, std::uint32_t i) {
-    return kPrior.mean + std::sqrt(kPrior.variance) * random.normal4(i)[0];
-  });
-  for (const Step& step : kSteps) {
-    filter.update(step.u, measurement<double>([z = step.z](const double& x) {
-                    const double d = (x - z) / kSensorSigma;
-                    return -d * d / 2.0 - 100.0;  // constants do not matter
-                  }));
-  }
-  const double mean = expectation<double>(filter.particles(), [](double x) { return x; });
-  return {mean, expectation<double>(filter.particles(), [&](double x) { return (x - mean) * (x - mean); })};
-}
-
-// Mean over 40 seeds within kStudent standard errors of the exact value; 5.80 is the two-sided 1e-6 bound of
-// Student's t with 39 degrees of freedom. The standard error itself must be small, so that the test can fail.
-void expect_unbiased(const std::vector<double>& values, double exact, double largest_standard_error) {
-  constexpr double kStudent = 5.80;
-  const auto n = static_cast<double>(values.size());
-  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
-  double squares = 0.0;
-  for (const double v : values) squares += (v - mean) * (v - mean);
-  const double standard_error = std::sqrt(squares / (n - 1.0) / n);
-  EXPECT_LT(standard_error, largest_standard_error);
-  EXPECT_NEAR(mean, exact, kStudent * standard_error);
-}
-
-class AgainstKalman : public ::testing::TestWithParam<double> {};
-
-TEST_P(AgainstKalman, MeanAndVariance) {
-  const Gaussian exact = kalman();
-  std::vector<double> means, variances;
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-    const Gaussian estimate = particle_filter(seed, GetParam());
-    means.push_back(estimate.mean);
-    variances.push_back(estimate.variance);
-  }
-  expect_unbiased(means, exact.mean, 0.01 * std::sqrt(exact.variance));
-  expect_unbiased(variances, exact.variance, 0.015 * exact.variance);
-}
-
-// Resampling before every prediction, when needed, and never.
-INSTANTIATE_TEST_SUITE_P(Resampling, AgainstKalman, ::testing::Values(1.0, 0.5, 0.0));
 
 // --- The tutorial's door: a state that is no pose, probabilities known exactly.
 
