@@ -52,6 +52,7 @@ const char* payload_defect(Time stamp, const std::shared_ptr<const LaserScan>& s
 }  // namespace
 
 const char* defect(const Event& event) {
+  if (is_far(event.arrival)) return "arrived more than 146 years from zero";
   return std::visit([&](const auto& payload) { return payload_defect(event.stamp, payload); }, event.payload);
 }
 

@@ -5,7 +5,8 @@
 namespace cairn {
 
 /// What makes an event unusable whatever the map, or nullptr if it can be used:
-/// - its stamp is not that of its payload, or more than 146 years from zero (differences would overflow)
+/// - its stamp is not that of its payload; its stamp or its arrival is more than 146 years from zero
+///   (differences would overflow)
 /// - an odometry pose that is not finite or more than 100 000 km from zero
 /// - a scan that is missing, has no beam or no valid range, or whose angles are not finite, do not advance,
 /// or

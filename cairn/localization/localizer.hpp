@@ -12,14 +12,15 @@ namespace cairn {
 /// the command line know no other.
 ///
 /// A localizer is a pure, single-threaded, event-driven object: the same events, configuration and seed give
-/// the same bytes, for any number of threads that it was given. It never throws on an event and never reads a
-/// clock.
+/// the same bytes, for any number of threads that it was given. It never throws on an event and reads no
+/// clock but the one that it may be given for the cost of updates.
 class Localizer {
  public:
   virtual ~Localizer() = default;
 
   /// Takes the next event, in the order of arrival. Returns what became of it; kPending if that is decided by
-  /// a later event (a scan that waits for the odometry after it). An event of a stream beyond the table has
+  /// a later event (a scan that waits for the odometry after it). What was decided may change when something
+  /// arrives late: outcomes() tells how things stand. An event of a stream beyond the table has
   /// no row in outcomes(): it is dropped (kDroppedUnboundStream) and counted in diagnostics() as "event of an
   /// unknown stream".
   virtual Outcome process(const Event& event) = 0;
@@ -27,7 +28,8 @@ class Localizer {
   /// Ends the input: decides what is still pending.
   virtual void finish() = 0;
 
-  /// The newest belief; nullopt before the first measurement.
+  /// The belief, current: that of the newest measurement, carried on by the newest odometry. nullopt before
+  /// the first measurement.
   virtual std::optional<Estimate> estimate() const = 0;
 
   /// Sample of at most `at_most` particles of the current belief, for pictures.

@@ -71,6 +71,11 @@ void LaserStreamOptions::visit(OptionVisitor& v) {
   models.insert(models.begin(), "");
   v.choice({"model", "sensor model of this stream; empty: laser.model"}, model, models);
   v.text({"map", "name of the map that this stream uses; empty: the main map"}, map);
+  v.number({"nice", "scheduler.policy cfs: a stream with a lower value is used more often"}, nice,
+           {1e-3, 1e3});
+  v.number({"rate_hz", "in place of scheduler.rate_hz; 0: that one"}, rate_hz, {0.0, 1e6});
+  v.number({"cost", "modelled cost of one beam, relative to scheduler.cost_ns"}, cost, {0.0, 1e6});
+  v.number({"period_s", "time between two messages, for the watchdog; 0: measured"}, period_s, {0.0, 1e6});
 }
 
 void FilterOptions::visit(OptionVisitor& v) {
@@ -126,14 +131,18 @@ void LocalizerOptions::visit(OptionVisitor& v) {
   };
   v.choice({"recipe", "composition of the filter: mcl (fixed number of particles) or kld_mcl (adaptive)"},
            recipe, {"mcl", "kld_mcl"});
-  v.text({"odometry_stream", "name of the odometry in the log; empty: the first odometry stream"},
+  v.text({"odometry_stream",
+          "name of the odometry in the log; empty: the first odometry stream; none: do without"},
          odometry_stream);
   section("motion", "odometry motion model of a differential drive", motion);
+  section("random_walk", "how the robot strays while there is no odometry", random_walk);
   section("laser", "sensor models of the laser scanners", laser);
   section("filter", "particles", filter);
   section("update", "when a scan is worth an update", update);
   section("initial", "spread around a given start pose", initial);
   section("global", "while the belief is spread over several places", global);
+  section("time", "data that comes late, or not at all", time);
+  section("scheduler", "which measurements get the computing time", scheduler);
   std::vector<std::string> present;
   for (const auto& [name, unused] : streams) present.push_back(name);
   v.table({"streams", "laser streams by their name in the log; none: every laser stream is used"}, present,

@@ -4,7 +4,10 @@
 #include "cairn/bayes/pose_kernel.hpp"
 #include "cairn/bayes/triggers/triggers.hpp"
 #include "cairn/core/options.hpp"
+#include "cairn/localization/scheduler.hpp"
+#include "cairn/localization/time_options.hpp"
 #include "cairn/models/motion/differential_drive.hpp"
+#include "cairn/models/motion/random_walk.hpp"
 #include "cairn/models/registry.hpp"
 #include "cairn/models/sensor/beam_selection.hpp"
 
@@ -19,8 +22,12 @@ struct LaserStreamOptions {
   bool mount_from_log = true;  ///< take the mounting pose from the log where it tells one
   Pose2 T_base_sensor;         ///< used where the log does not tell, or if mount_from_log is false
   BeamLimits limits;
-  std::string model;  ///< sensor model, by its name in cairn/models/registry.hpp; empty: laser.model
-  std::string map;    ///< name in the MapLibrary; empty: the main map
+  std::string model;      ///< sensor model, by its name in cairn/models/registry.hpp; empty: laser.model
+  std::string map;        ///< name in the MapLibrary; empty: the main map
+  double nice = 1.0;      ///< virtual time per time of computing: a lower one is used more often (Scheduler)
+  double rate_hz = 0.0;   ///< in place of scheduler.rate_hz; 0: that one
+  double cost = 1.0;      ///< modelled cost of one beam, relative to scheduler.cost_ns
+  double period_s = 0.0;  ///< time between two messages, for the watchdog; 0: measured
 
   void visit(OptionVisitor& visitor);
 };
@@ -71,13 +78,16 @@ struct GlobalOptions {
 /// Everything about a localizer but its map, its start and its seed.
 struct LocalizerOptions {
   std::string recipe = "kld_mcl";
-  std::string odometry_stream;  ///< name in the log; empty: the only one, or the first
+  std::string odometry_stream;  ///< name in the log; empty: the only one, or the first; none: do without
   DifferentialDriveOptions motion;
+  RandomWalkOptions random_walk;  ///< while there is no odometry
   LaserModelOptions laser;
   FilterOptions filter;
   UpdateOptions update;
   InitialOptions initial;
   GlobalOptions global;
+  TimeOptions time;
+  SchedulerOptions scheduler;
   std::map<std::string, LaserStreamOptions>
       streams;  ///< by name in the log; none: every laser stream is used
 

@@ -1,5 +1,6 @@
+#include "cairn/localization/stream_binding.hpp"
+
 #include "cairn/core/errors.hpp"
-#include "cairn/localization/monte_carlo_localizer.hpp"
 
 #include <algorithm>
 
@@ -14,7 +15,10 @@ std::string names_of(const std::vector<StreamInfo>& streams, StreamKind kind) {
   return names.empty() ? "none" : names;
 }
 
-StreamId find_odometry(const std::vector<StreamInfo>& streams, const std::string& wanted) {
+constexpr const char* kNoOdometry = "none";
+
+std::optional<StreamId> find_odometry(const std::vector<StreamInfo>& streams, const std::string& wanted) {
+  if (wanted == kNoOdometry) return std::nullopt;
   const auto found = std::find_if(streams.begin(), streams.end(), [&](const StreamInfo& s) {
     return s.kind == StreamKind::kOdometry && (wanted.empty() || s.name == wanted);
   });
@@ -22,7 +26,7 @@ StreamId find_odometry(const std::vector<StreamInfo>& streams, const std::string
     throw ConfigurationError(
         "odometry_stream",
         wanted.empty() ? "the log has no odometry" : "the log has no odometry '" + wanted + "'",
-        "its odometry streams: " + names_of(streams, StreamKind::kOdometry));
+        "its odometry streams: " + names_of(streams, StreamKind::kOdometry) + "; `none` does without");
   }
   return static_cast<StreamId>(found - streams.begin());
 }
@@ -39,36 +43,86 @@ void check_names(const LocalizerOptions& options, const std::vector<StreamInfo>&
   }
 }
 
+// A laser scanner: one sensor model at two widths.
+class LaserStream final : public StreamModel {
+ public:
+  LaserStream(std::shared_ptr<const LaserModel> fine, std::shared_ptr<const LaserModel> coarse, int max_beams,
+              double cost)
+      : fine_(std::move(fine)), coarse_(std::move(coarse)), max_beams_(max_beams), cost_(cost) {}
+
+  BoundUpdate<Pose2> bind(const Event::Payload& z, bool compact) const override {
+    return (compact ? fine_ : coarse_)->bind(scan_of(z));
+  }
+  double explained_share(const Event::Payload& z, const Pose2& T_map_base) const override {
+    return fine_->explained_share(scan_of(z), T_map_base);
+  }
+  double beams(const Event::Payload& z) const override {
+    const auto beams = static_cast<double>(scan_of(z).ranges_m.size());
+    return cost_ * (max_beams_ > 0 ? std::min(beams, static_cast<double>(max_beams_)) : beams);
+  }
+
+ private:
+  static const LaserScan& scan_of(const Event::Payload& z) {
+    return *std::get<std::shared_ptr<const LaserScan>>(z);
+  }
+
+  std::shared_ptr<const LaserModel> fine_;
+  std::shared_ptr<const LaserModel> coarse_;
+  int max_beams_;
+  double cost_;
+};
+
+std::unique_ptr<const StreamModel> bind_laser(const LocalizerOptions& options,
+                                              const LaserStreamOptions& laser, const StreamInfo& stream,
+                                              const MapLibrary& maps) {
+  const Pose2 T_base_sensor =
+      laser.mount_from_log && stream.T_base_sensor ? *stream.T_base_sensor : laser.T_base_sensor;
+  const std::string& name = laser.model.empty() ? options.laser.model : laser.model;
+  const LaserModelOptions coarse =
+      widened(options.laser, options.global.sigma_hit_m, options.global.effective_beams);
+  const MapSet& map = maps.at(laser.map);
+  return std::make_unique<const LaserStream>(
+      make_laser_model(name, {map, T_base_sensor, laser.limits, options.laser}),
+      make_laser_model(name, {map, T_base_sensor, laser.limits, coarse}),
+      options.laser.likelihood_field.max_beams, laser.cost);
+}
+
+// How a laser stream is to be used; nullopt: not at all.
+std::optional<LaserStreamOptions> options_of(const LocalizerOptions& options, const StreamInfo& stream) {
+  if (stream.kind != StreamKind::kLaserScan) return std::nullopt;
+  const auto configured = options.streams.find(stream.name);
+  const bool named = configured != options.streams.end();
+  if (!named && !options.streams.empty()) return std::nullopt;
+  const LaserStreamOptions laser = named ? configured->second : LaserStreamOptions{};
+  return laser.use ? std::optional(laser) : std::nullopt;
+}
+
 }  // namespace
 
-void MonteCarloLocalizer::bind_streams(const std::vector<StreamInfo>& streams, const MapLibrary& maps) {
-  check_names(options_, streams);
-  odometry_stream_ = find_odometry(streams, options_.odometry_stream);
-  const LaserModelOptions coarse =
-      widened(options_.laser, options_.global.sigma_hit_m, options_.global.effective_beams);
-  bool any = false;
+StreamBindings bind_streams(const LocalizerOptions& options, const std::vector<StreamInfo>& streams,
+                            const MapLibrary& maps) {
+  check_names(options, streams);
+  StreamBindings bindings;
+  bindings.odometry = find_odometry(streams, options.odometry_stream);
   for (const StreamInfo& stream : streams) {
-    stream_names_.push_back(stream.name);
-    laser_models_.emplace_back();
-    if (stream.kind != StreamKind::kLaserScan) continue;
-    const auto configured = options_.streams.find(stream.name);
-    const bool named = configured != options_.streams.end();
-    if (!named && !options_.streams.empty()) continue;
-    const LaserStreamOptions laser = named ? configured->second : LaserStreamOptions{};
-    if (!laser.use) continue;
-    const Pose2 T_base_sensor =
-        laser.mount_from_log && stream.T_base_sensor ? *stream.T_base_sensor : laser.T_base_sensor;
-    LaserModels& models = laser_models_.back();
-    const std::string& name = laser.model.empty() ? options_.laser.model : laser.model;
-    const MapSet& map = maps.at(laser.map);
-    models.fine = make_laser_model(name, {map, T_base_sensor, laser.limits, options_.laser});
-    models.coarse = make_laser_model(name, {map, T_base_sensor, laser.limits, coarse});
-    any = true;
+    bindings.names.push_back(stream.name);
+    bindings.models.emplace_back();
+    bindings.shares.emplace_back();
+    bindings.periods.emplace_back();
+    const auto laser = options_of(options, stream);
+    if (!laser) continue;
+    bindings.models.back() = bind_laser(options, *laser, stream, maps);
+    bindings.shares.back().nice = laser->nice;
+    if (laser->rate_hz > 0.0) bindings.shares.back().rate_hz = laser->rate_hz;
+    if (laser->period_s > 0.0) bindings.periods.back() = duration_from_seconds(laser->period_s);
   }
+  const bool any = std::any_of(bindings.models.begin(), bindings.models.end(),
+                               [](const auto& model) { return model != nullptr; });
   if (!any) {
     throw ConfigurationError("streams", "no laser stream is in use",
                              "the log's laser streams: " + names_of(streams, StreamKind::kLaserScan));
   }
+  return bindings;
 }
 
 }  // namespace cairn

@@ -1,0 +1,250 @@
+#include "cairn/localization/fusion_localizer.hpp"
+
+#include "cairn/localization/event_check.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace cairn {
+namespace {
+
+constexpr Duration kClockSetBack = std::chrono::seconds(10);
+
+Duration history_of(const TimeOptions& options) {
+  return options.late_policy == "replay" ? duration_from_seconds(options.history_s) : Duration{0};
+}
+
+}  // namespace
+
+FusionLocalizer::FusionLocalizer(FusionParts parts)
+    : stream_names_(std::move(parts.streams.names)),
+      odometry_stream_(parts.streams.odometry),
+      synchronizer_(parts.time, stream_names_.size()),
+      scheduler_(parts.scheduler, std::move(parts.streams.shares)),
+      watchdog_(std::move(parts.streams.periods), parts.time.watchdog_factor),
+      history_(history_of(parts.time)),
+      belief_(std::move(parts.filter), std::move(parts.streams.models), parts.trigger,
+              std::move(parts.global_start), std::move(parts.executor)),
+      cost_clock_(std::move(parts.cost_clock)),
+      accounts_(stream_names_.size()),
+      queued_(stream_names_.size()) {}
+
+Outcome FusionLocalizer::process(const Event& event) {
+  if (event.stream >= stream_names_.size()) {
+    diagnostics_.warn("event of an unknown stream", "stream " + std::to_string(event.stream),
+                      "the table has " + std::to_string(stream_names_.size()) + " streams");
+    return Outcome::kDroppedUnboundStream;
+  }
+  ++event_number_;
+  event_outcome_ = take(event);
+  accounts_.open(event.stream, event_outcome_);
+  work();
+  return event_outcome_;
+}
+
+Outcome FusionLocalizer::take(const Event& event) {
+  const bool odometry = std::holds_alternative<Odometry>(event.payload);
+  const bool bound = odometry ? event.stream == odometry_stream_ : belief_.binds(event.stream);
+  if (!bound) return Outcome::kDroppedUnboundStream;
+  if (const char* what = defect(event)) {
+    warn(odometry ? "malformed odometry" : "malformed scan", event, what);
+    return Outcome::kDroppedMalformed;
+  }
+  tick(event);
+  return odometry ? take_odometry(event) : take_measurement(event);
+}
+
+// The clock of the arrivals is the time by which waiting is measured. Where it was set back, what was put
+// behind the present while it was wrong must not make stale what comes now.
+void FusionLocalizer::tick(const Event& event) {
+  if (now_ && event.arrival < *now_ - kClockSetBack) {
+    synchronizer_.restart_clock(event.arrival);
+    watchdog_.restart(event.arrival);
+    history_.restart();
+    told_.reset();
+    warn("arrival clock set back", event, "it arrived more than 10 s before earlier ones");
+    now_ = event.arrival;
+  }
+  now_ = std::max(now_.value_or(event.arrival), event.arrival);
+  synchronizer_.observe(event, *now_);
+  scheduler_.advance(*now_);
+  watch(event);
+}
+
+void FusionLocalizer::watch(const Event& event) {
+  watchdog_.heard(event.stream, *now_);
+  watchdog_.look(*now_, [&](StreamId stream, Time since, Duration period) {
+    diagnostics_.warn("silent stream", "stream " + stream_names_[stream],
+                      "nothing arrived after " + format_time(since) + " s; it used to speak every " +
+                          std::to_string(to_seconds(period)) + " s");
+  });
+}
+
+Outcome FusionLocalizer::take_odometry(const Event& event) {
+  const auto& odometry = std::get<Odometry>(event.payload);
+  const OdometryTrack::Intake intake = synchronizer_.add(odometry, *now_);
+  if (intake.held) settle_held(*intake.held);
+  if (intake.set_back) clock_set_back(odometry);
+  if (intake.changed_after) history_.redo_after(*intake.changed_after);
+  return intake.now;
+}
+
+Outcome FusionLocalizer::take_measurement(const Event& event) {
+  const TimelineKey key{event.stamp, event.stream};
+  if (synchronizer_.waits(key) || history_.contains(key)) {
+    warn("duplicate scan", event, "there is one with this stamp");
+    return Outcome::kDroppedDuplicate;
+  }
+  if (history_.is_stale(event.stamp)) return Outcome::kDroppedStale;
+  synchronizer_.add({event, event_number_, false});
+  return Outcome::kPending;
+}
+
+void FusionLocalizer::clock_set_back(const Odometry& odometry) {
+  diagnostics_.warn("clock set back", "odometry at " + format_time(odometry.stamp) + " s",
+                    "the stamps go on from here");
+  history_.restart();
+  synchronizer_.restart_clock(*now_);
+  told_.reset();
+}
+
+void FusionLocalizer::work() {
+  admit();
+  catch_up();
+  bound_the_queue();
+}
+
+void FusionLocalizer::admit() {
+  const std::size_t ready = synchronizer_.ready();
+  if (ready == 0) return;
+  candidates_.clear();
+  for (std::size_t i = 0; i < ready; ++i) {
+    candidates_.push_back({synchronizer_.waiting()[i].event.stream, ended_});
+  }
+  if (!ended_) scheduler_.admit(candidates_);
+  synchronizer_.take(candidates_, [&](Measurement&& measurement) { use(std::move(measurement)); });
+}
+
+void FusionLocalizer::use(Measurement&& measurement) {
+  const Time stamp = measurement.event.stamp;
+  if (history_.is_stale(stamp)) {
+    decide(measurement, measurement.deferred ? Outcome::kDroppedOverBudget : Outcome::kDroppedStale);
+    return;
+  }
+  if (belief_.started() && stamp < belief_.stamp()) late_stream_ = measurement.event.stream;
+  history_.insert(std::move(measurement));
+}
+
+void FusionLocalizer::catch_up() {
+  history_.catch_up(belief_, [&](Timeline::Entry& entry, bool again) { apply(entry, again); });
+  if (revised_ && belief_.started()) tell(belief_.stamp());
+  revised_ = false;
+  late_stream_.reset();
+  forget();
+}
+
+void FusionLocalizer::apply(Timeline::Entry& entry, bool again) {
+  const Event& event = entry.measurement.event;
+  cost_clock_->start();
+  const auto applied = belief_.apply(event, synchronizer_.odometry(), scheduler_);
+  if (applied.used) charge(entry, again, cost_clock_->stop(applied.work));
+  const Outcome use = entry.measurement.deferred ? Outcome::kDeferred
+                      : entry.late               ? Outcome::kReplayed
+                                                 : Outcome::kUsed;
+  const Outcome outcome = applied.used ? use : Outcome::kNotNeeded;
+  settle(event.stream, entry.measurement.number, entry.outcome, outcome);
+  entry.outcome = outcome;
+  if (again || (told_ && event.stamp < *told_)) {
+    revised_ = true;
+  } else {
+    tell(event.stamp);
+  }
+}
+
+// What is done again is paid for by the stream that came late.
+void FusionLocalizer::charge(const Timeline::Entry& entry, bool again, Duration cost) {
+  const StreamId own = entry.measurement.event.stream;
+  scheduler_.charge(again ? late_stream_.value_or(own) : own, cost);
+}
+
+void FusionLocalizer::tell(Time stamp) {
+  told_ = stamp;
+  revised_ = false;
+  if (observer_) observer_(belief_.estimate_at(stamp, synchronizer_.odometry()));
+}
+
+// A late odometry message changes the motion from the one before it on: as far back as measurements can be
+// put, the odometry around them is kept, and as far back as odometry is kept, so are the measurements.
+void FusionLocalizer::forget() {
+  if (history_.empty()) return;
+  OdometryTrack& odometry = synchronizer_.odometry();
+  Time from = history_.wanted_from();
+  if (!odometry.empty()) from = std::min(from, odometry.at_or_before(from));
+  history_.forget_before(from);
+  odometry.forget_before(from);
+  if (history_.oldest() == nullptr || history_.oldest()->started()) belief_.forget_start();
+}
+
+// Where too many wait for odometry, the latest goes: one from the future must not push out those that can
+// still be used. Of those that wait for computing time, it is the oldest of the stream.
+void FusionLocalizer::bound_the_queue() {
+  const auto& waiting = synchronizer_.waiting();
+  if (waiting.size() > Synchronizer::kMostWaiting) {
+    decide(synchronizer_.remove(waiting.size() - 1), Outcome::kDroppedNoOdometry);
+  }
+  if (!scheduler_.limited()) return;
+  std::fill(queued_.begin(), queued_.end(), 0);
+  for (std::size_t i = waiting.size(); i-- > 0;) {
+    const Measurement& measurement = waiting[i];
+    if (!measurement.deferred || ++queued_[measurement.event.stream] <= scheduler_.queue()) continue;
+    decide(synchronizer_.remove(i), Outcome::kDroppedOverBudget);
+  }
+}
+
+void FusionLocalizer::finish() {
+  if (synchronizer_.odometry().drop_held()) settle_held(Outcome::kDroppedOutOfOrder);
+  ended_ = true;
+  synchronizer_.end();
+  work();
+  while (!synchronizer_.waiting().empty()) decide(synchronizer_.remove(0), Outcome::kDroppedNoOdometry);
+}
+
+std::optional<Estimate> FusionLocalizer::estimate() const {
+  if (!belief_.started()) return std::nullopt;
+  return belief_.estimate_at(current_stamp(), synchronizer_.odometry());
+}
+
+Time FusionLocalizer::current_stamp() const {
+  const OdometryTrack& odometry = synchronizer_.odometry();
+  return odometry.empty() ? belief_.stamp() : std::max(belief_.stamp(), odometry.newest().stamp);
+}
+
+ParticleSnapshot FusionLocalizer::snapshot(std::size_t at_most) const {
+  if (!belief_.started()) return {};
+  return belief_.snapshot_at(current_stamp(), at_most, synchronizer_.odometry());
+}
+
+void FusionLocalizer::decide(const Measurement& measurement, Outcome outcome) {
+  settle(measurement.event.stream, measurement.number, Outcome::kPending, outcome);
+}
+
+void FusionLocalizer::settle(StreamId stream, std::uint64_t number, Outcome from, Outcome to) {
+  accounts_.move(stream, from, to);
+  updates_ += (is_use(to) ? 1 : 0) - (is_use(from) ? 1 : 0);
+  if (number == event_number_) event_outcome_ = to;
+}
+
+void FusionLocalizer::settle_held(Outcome outcome) {
+  accounts_.move(*odometry_stream_, Outcome::kPending, outcome);
+  if (outcome == Outcome::kUsed) return;
+  diagnostics_.warn("odometry stamp not believed",
+                    "odometry after " + format_time(synchronizer_.odometry().newest().stamp) + " s",
+                    "its stamp jumps by more than 10 s, and the next message does not follow it");
+}
+
+void FusionLocalizer::warn(const char* kind, const Event& event, const std::string& what) {
+  diagnostics_.warn(kind, "stream " + stream_names_[event.stream] + " at " + format_time(event.stamp) + " s",
+                    what);
+}
+
+}  // namespace cairn

@@ -1,0 +1,91 @@
+#pragma once
+
+#include "cairn/core/executor.hpp"
+#include "cairn/localization/cost_clock.hpp"
+#include "cairn/localization/estimate.hpp"
+#include "cairn/localization/global_start.hpp"
+#include "cairn/localization/localizer_options.hpp"
+#include "cairn/localization/odometry_track.hpp"
+#include "cairn/localization/pose_filter.hpp"
+#include "cairn/localization/scheduler.hpp"
+#include "cairn/localization/stream_model.hpp"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace cairn {
+
+/// What a localizer believes, and how a measurement changes it: the part of a localizer that History takes
+/// back in time. What it becomes is a function of the measurements in the order in which they are applied
+/// and of the odometry around them; it knows nothing of their arrival.
+class PoseBelief {
+ public:
+  /// When a measurement of a stream is worth an update.
+  struct Trigger {
+    UpdateOptions update;
+    RandomWalkOptions walk;  ///< counts as motion where there is no odometry
+  };
+
+  /// @param models per stream; null: the stream is not bound
+  /// @param global_start null: the filter is initialised; else the first measurement does that
+  PoseBelief(std::unique_ptr<PoseFilter> filter, std::vector<std::unique_ptr<const StreamModel>> models,
+             const Trigger& trigger, std::unique_ptr<GlobalStart> global_start,
+             std::shared_ptr<const Executor> executor);
+
+  bool binds(StreamId stream) const { return models_[stream] != nullptr; }
+
+  /// What applying a measurement came to.
+  struct Application {
+    bool used = false;
+    UpdateWork work;
+  };
+  /// Takes the belief to the measurement's stamp and, if it is worth it, weighs it. @pre binds(event.stream)
+  Application apply(const Event& event, const OdometryTrack& odometry, const Scheduler& scheduler);
+
+  bool started() const { return state_.started; }
+  /// Stamp of the newest measurement. @pre started()
+  Time stamp() const { return state_.stamp; }
+  /// The belief, carried by the odometry to `stamp`. @pre started()
+  Estimate estimate_at(Time stamp, const OdometryTrack& odometry) const;
+  /// A sample of the belief, carried likewise.
+  ParticleSnapshot snapshot_at(Time stamp, std::size_t at_most, const OdometryTrack& odometry) const;
+
+  /// Frees what only the beginning needs. @pre nobody will go back to before it
+  void forget_start() { global_start_.reset(); }
+
+ private:
+  struct State {
+    bool started = false;
+    Time stamp;
+    OdometryAnchor updated_at;                           ///< of the last update
+    Estimate updated;                                    ///< the belief right after it
+    std::vector<std::optional<OdometryAnchor>> used_at;  ///< per stream, its last measurement that was used
+  };
+
+ public:
+  /// All that changes in a belief.
+  struct Checkpoint {
+    bool started() const { return state.started; }
+    State state;
+    std::unique_ptr<PoseFilter::Checkpoint> filter;
+  };
+  void save(Checkpoint& checkpoint) const;
+  void restore(const Checkpoint& checkpoint);
+
+ private:
+  void resolve_anchors(const OdometryTrack& odometry);
+  bool worth_an_update(StreamId stream, Time stamp, const OdometryTrack& odometry,
+                       const Scheduler& scheduler) const;
+  void start_anywhere(const BoundUpdate<Pose2>& z);
+  UpdateWork update(const Event& event, const OdometryTrack& odometry);
+
+  std::unique_ptr<PoseFilter> filter_;
+  std::vector<std::unique_ptr<const StreamModel>> models_;
+  Trigger trigger_;
+  std::unique_ptr<GlobalStart> global_start_;
+  std::shared_ptr<const Executor> executor_;
+  State state_;
+};
+
+}  // namespace cairn

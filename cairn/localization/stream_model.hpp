@@ -1,0 +1,27 @@
+#pragma once
+
+#include "cairn/bayes/models.hpp"
+#include "cairn/core/pose2.hpp"
+#include "cairn/localization/cost_clock.hpp"
+#include "cairn/sensing/event.hpp"
+
+namespace cairn {
+
+/// What one stream's measurements tell of the pose: its sensor model, mounting pose and map, bound together.
+/// The run-time around the filter knows no more of a sensor than this. Immutable.
+class StreamModel {
+ public:
+  virtual ~StreamModel() = default;
+
+  /// The measurement as a function of poses T_map_base alone. @param compact false while the belief is spread
+  /// over several places: the likelihood has then to be as wide as the gaps between the particles
+  virtual BoundUpdate<Pose2> bind(const Event::Payload& z, bool compact) const = 0;
+
+  /// Share of the measurement that the map explains, seen from `T_map_base`: 0..1.
+  virtual double explained_share(const Event::Payload& z, const Pose2& T_map_base) const = 0;
+
+  /// Evaluated parts of the measurement, weighted by what one of them costs (UpdateWork::beams).
+  virtual double beams(const Event::Payload& z) const = 0;
+};
+
+}  // namespace cairn
