@@ -28,13 +28,16 @@ function(cairn_add_test name)
   if(NOT ARG_LABEL)
     set(ARG_LABEL unit)
   endif()
+  set(environment "")
+  if(ARG_ENVIRONMENT)
+    set(environment ENVIRONMENT ${ARG_ENVIRONMENT})
+  endif()
   add_executable(${name} ${ARG_SOURCES})
   cairn_compile_options(${name})
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main)
   # Tests look for recordings in CAIRN_DATA, then in this folder beside the checkout.
   target_compile_definitions(${name} PRIVATE CAIRN_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  gtest_discover_tests(${name} PROPERTIES LABELS ${ARG_LABEL} ENVIRONMENT "${ARG_ENVIRONMENT}"
-                       DISCOVERY_TIMEOUT 60)
+  gtest_discover_tests(${name} PROPERTIES LABELS ${ARG_LABEL} ${environment} DISCOVERY_TIMEOUT 60)
 endfunction()
 
 # cairn_add_library(NAME [SUBFOLDERS folders...] PUBLIC libs... PRIVATE libs...)
