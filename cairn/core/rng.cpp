@@ -39,15 +39,14 @@ RandomStream RandomStream::from_item(std::uint32_t first) const {
   return moved;
 }
 
-PhiloxCounter RandomStream::block(std::uint32_t item, std::uint16_t draw) const {
+PhiloxCounter RandomStream::counter(std::uint32_t item, std::uint16_t draw) const {
   const auto purpose = static_cast<std::uint32_t>(purpose_);
-  return philox4x32_10({first_item_ + item, (purpose << 16) | draw, static_cast<std::uint32_t>(step_),
-                        static_cast<std::uint32_t>(step_ >> 32)},
-                       {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)});
+  return {first_item_ + item, (purpose << 16) | draw, static_cast<std::uint32_t>(step_),
+          static_cast<std::uint32_t>(step_ >> 32)};
 }
 
 std::array<double, 4> RandomStream::uniform4(std::uint32_t item, std::uint16_t draw) const {
-  const PhiloxCounter words = block(item, draw);
+  const PhiloxCounter words = philox4x32_10(counter(item, draw), key());
   return {to_uniform(words[0]), to_uniform(words[1]), to_uniform(words[2]), to_uniform(words[3])};
 }
 

@@ -44,9 +44,13 @@ class RandomStream {
   /// Four independent standard normal numbers (Box-Muller; at most 6.8 standard deviations).
   std::array<double, 4> normal4(std::uint32_t item, std::uint16_t draw = 0) const;
 
- private:
-  PhiloxCounter block(std::uint32_t item, std::uint16_t draw) const;
+  /// Where the words of an item come from: those of the next item have the next counter[0] (modulo 2^32).
+  PhiloxCounter counter(std::uint32_t item, std::uint16_t draw = 0) const;
+  PhiloxKey key() const {
+    return {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)};
+  }
 
+ private:
   std::uint64_t seed_;
   std::uint64_t step_;
   RandomPurpose purpose_;

@@ -2,6 +2,7 @@
 
 #include "cairn/core/angle.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cairn {
@@ -11,20 +12,15 @@ namespace {
 // as the second turn.
 constexpr double kNoTranslation_m = 0.01;
 
-struct TurnDriveTurn {
-  double turn1;
-  double drive;
-  double turn2;
-  double aside = 0.0;  ///< to the left while driving
-};
-
-TurnDriveTurn decompose(const Pose2& T) {
+NoisyMove decompose(const Pose2& T) {
   const double drive = std::hypot(T.x, T.y);
-  if (drive < kNoTranslation_m) return {0.0, T.x, T.theta, T.y};
+  if (drive < kNoTranslation_m) return {.drive = T.x, .turn2 = T.theta, .aside = T.y};
   const double turn1 = std::atan2(T.y, T.x);
-  if (std::abs(turn1) <= kPi / 2.0) return {turn1, drive, angle_difference(T.theta, turn1)};
+  if (std::abs(turn1) <= kPi / 2.0) {
+    return {.turn1 = turn1, .drive = drive, .turn2 = angle_difference(T.theta, turn1)};
+  }
   const double backwards = normalize_angle(turn1 + kPi);
-  return {backwards, -drive, angle_difference(T.theta, backwards)};
+  return {.turn1 = backwards, .drive = -drive, .turn2 = angle_difference(T.theta, backwards)};
 }
 
 double square(double x) { return x * x; }
@@ -45,23 +41,25 @@ void DifferentialDriveOptions::visit(OptionVisitor& v) {
            {0.0, 3.2});
 }
 
+NoisyMove DifferentialDrive::noisy_move(const Pose2& T_before_after) const {
+  NoisyMove move = decompose(T_before_after);
+  const auto& o = options_;
+  const double turn1 = square(move.turn1), drive = square(move.drive), turn2 = square(move.turn2);
+  move.sigma_turn1 = std::sqrt(o.alpha1 * turn1 + o.alpha2 * drive);
+  move.sigma_turn2 = std::sqrt(o.alpha1 * turn2 + o.alpha2 * drive + square(o.sigma_min_rad));
+  move.sigma_drive = std::sqrt(o.alpha3 * drive + o.alpha4 * (turn1 + turn2) + square(o.sigma_min_m));
+  move.sigma_aside = o.sigma_min_m;
+  return move;
+}
+
 void DifferentialDrive::propagate(const Pose2& T_before_after, std::span<Pose2> states,
                                   const RandomStream& random) const {
-  const auto [turn1, drive, turn2, aside] = decompose(T_before_after);
-  const auto& o = options_;
-  const double sigma_turn1 = std::sqrt(o.alpha1 * square(turn1) + o.alpha2 * square(drive));
-  const double sigma_turn2 =
-      std::sqrt(o.alpha1 * square(turn2) + o.alpha2 * square(drive) + square(o.sigma_min_rad));
-  const double sigma_drive = std::sqrt(o.alpha3 * square(drive) + o.alpha4 * (square(turn1) + square(turn2)) +
-                                       square(o.sigma_min_m));
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    const auto n = random.normal4(static_cast<std::uint32_t>(i));
-    const double heading = states[i].theta + turn1 + sigma_turn1 * n[0];
-    const double along = drive + sigma_drive * n[1];
-    const double across = aside + o.sigma_min_m * n[3];
-    const double c = std::cos(heading), s = std::sin(heading);
-    states[i] = {states[i].x + c * along - s * across, states[i].y + s * along + c * across,
-                 normalize_angle(heading + turn2 + sigma_turn2 * n[2])};
+  const NoisyMove move = noisy_move(T_before_after);
+  NormalBatch noise;
+  for (std::size_t begin = 0; begin < states.size(); begin += NormalBatch::kCapacity) {
+    const std::size_t count = std::min(NormalBatch::kCapacity, states.size() - begin);
+    noise.fill(random, static_cast<std::uint32_t>(begin), count);
+    apply(move, states.subspan(begin, count), noise);
   }
 }
 

@@ -3,6 +3,7 @@
 #include "cairn/bayes/models.hpp"
 #include "cairn/core/options.hpp"
 #include "cairn/core/pose2.hpp"
+#include "cairn/models/motion/noisy_move.hpp"
 
 namespace cairn {
 
@@ -30,6 +31,10 @@ class DifferentialDrive final : public MotionModel<Pose2, Pose2> {
   explicit DifferentialDrive(const DifferentialDriveOptions& options) : options_(options) {}
   void propagate(const Pose2& T_before_after, std::span<Pose2> states,
                  const RandomStream& random) const override;
+
+  /// What a control means for every particle: `propagate` applies it with the numbers of
+  /// RandomStream::normal4, in single precision.
+  NoisyMove noisy_move(const Pose2& T_before_after) const;
 
  private:
   DifferentialDriveOptions options_;

@@ -1,0 +1,162 @@
+#include "cairn/core/normal_batch.hpp"
+
+#include "cairn/core/errors.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "cairn/core/normal_batch.cpp"
+// Highway must come first.
+// clang-format off
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+#include "cairn/core/simd_math-inl.h"
+// clang-format on
+
+HWY_BEFORE_NAMESPACE();
+namespace cairn::HWY_NAMESPACE {
+
+using Floats = hn::ScalableTag<float>;
+using Words = hn::RebindToUnsigned<Floats>;
+using Integers = hn::RebindToSigned<Floats>;
+using F = hn::Vec<Floats>;
+using W = hn::Vec<Words>;
+
+struct WordsOfItems {
+  W w0, w1, w2, w3;
+};
+
+#if HWY_TARGET == HWY_SCALAR
+
+// One item.
+HWY_INLINE WordsOfItems philox(const PhiloxCounter& first, const PhiloxKey& key, std::uint32_t item) {
+  const auto words = philox4x32_10({first[0] + item, first[1], first[2], first[3]}, key);
+  const Words d;
+  return {hn::Set(d, words[0]), hn::Set(d, words[1]), hn::Set(d, words[2]), hn::Set(d, words[3])};
+}
+
+#else
+
+using Longs = hn::Repartition<std::uint64_t, Words>;
+using Q = hn::Vec<Longs>;
+
+// Four words of as many items as there are 64-bit lanes. Only the lower half of each lane counts: the
+// multiplication ignores what the shifts leave in the upper one.
+struct PhiloxState {
+  Q c0, c1, c2, c3;
+
+  HWY_INLINE void round(std::uint32_t key0, std::uint32_t key1) {
+    const Longs d;
+    const Words d32;
+    const auto product = [&](Q a, std::uint64_t factor) {
+      return hn::MulEven(hn::BitCast(d32, a), hn::BitCast(d32, hn::Set(d, factor)));
+    };
+    const Q first = product(c0, 0xD2511F53u), second = product(c2, 0xCD9E8D57u);
+    c0 = hn::Xor(hn::Xor(hn::ShiftRight<32>(second), c1), hn::Set(d, std::uint64_t{key0}));
+    c2 = hn::Xor(hn::Xor(hn::ShiftRight<32>(first), c3), hn::Set(d, std::uint64_t{key1}));
+    c1 = second;
+    c3 = first;
+  }
+};
+
+// Philox4x32-10 of consecutive items, one per lane: two halves side by side.
+HWY_INLINE WordsOfItems philox(const PhiloxCounter& first, const PhiloxKey& key, std::uint32_t item) {
+  const Longs d;
+  const Words d32;
+  const auto start = [&](std::uint64_t offset) {
+    return PhiloxState{hn::Iota(d, std::uint64_t{first[0]} + item + offset),
+                       hn::Set(d, std::uint64_t{first[1]}), hn::Set(d, std::uint64_t{first[2]}),
+                       hn::Set(d, std::uint64_t{first[3]})};
+  };
+  PhiloxState low = start(0), high = start(hn::Lanes(d));
+  std::uint32_t key0 = key[0], key1 = key[1];
+  HWY_UNROLL(10)
+  for (int round = 0; round < 10; ++round) {
+    low.round(key0, key1);
+    high.round(key0, key1);
+    key0 += 0x9E3779B9u;
+    key1 += 0xBB67AE85u;
+  }
+  const auto join = [&](Q l, Q h) { return hn::ConcatEven(d32, hn::BitCast(d32, h), hn::BitCast(d32, l)); };
+  return {join(low.c0, high.c0), join(low.c1, high.c1), join(low.c2, high.c2), join(low.c3, high.c3)};
+}
+
+#endif
+
+// words + 1/2, rounded once.
+HWY_INLINE F middle_of(W words) {
+  const Floats d;
+  const Integers di;
+  const auto high = hn::ConvertTo(d, hn::BitCast(di, hn::ShiftRight<16>(words)));
+  const auto low = hn::ConvertTo(d, hn::BitCast(di, hn::And(words, hn::Set(Words(), 0xffffu))));
+  return hn::Add(hn::Mul(high, hn::Set(d, 65536.0f)), hn::Add(low, hn::Set(d, 0.5f)));
+}
+
+// log((word + 1/2) / 2^32). Close to 1 the difference to 1 is taken from the integer, so that small results
+// keep their digits.
+HWY_INLINE F log_of_uniform(W words) {
+  const Floats d;
+  const Words dw;
+  const Integers di;
+  const auto is_large = hn::Gt(words, hn::Set(dw, 0xb504f333u));  // sqrt(1/2)
+  const F value = middle_of(hn::IfThenElse(is_large, hn::Not(words), words));
+  // value = (1 + x) 2^exponent with 1 + x in sqrt(1/2) .. sqrt(2)
+  const auto bits = hn::BitCast(di, value);
+  const auto exponent = hn::ShiftRight<23>(hn::Sub(bits, hn::Set(di, 0x3f3504f3)));
+  const F mantissa = hn::BitCast(d, hn::Sub(bits, hn::ShiftLeft<23>(exponent)));
+  const auto large = hn::RebindMask(d, is_large);
+  const F x =
+      hn::IfThenElse(large, hn::Mul(value, hn::Set(d, -0x1p-32f)), hn::Sub(mantissa, hn::Set(d, 1.0f)));
+  const F e = hn::IfThenZeroElse(large, hn::ConvertTo(d, hn::Sub(exponent, hn::Set(di, 32))));
+  const F z = hn::Mul(x, x);
+  F y = horner(d, x, hn::Set(d, 7.0376836292e-2f), -1.1514610310e-1, 1.1676998740e-1, -1.2420140846e-1,
+               1.4249322787e-1, -1.6668057665e-1, 2.0000714765e-1, -2.4999993993e-1, 3.3333331174e-1);
+  y = hn::Mul(hn::Mul(y, x), z);
+  y = hn::Add(y, hn::Mul(e, hn::Set(d, -2.12194440e-4f)));
+  y = hn::Sub(y, hn::Mul(z, hn::Set(d, 0.5f)));
+  return hn::Add(hn::Add(x, y), hn::Mul(e, hn::Set(d, 0.693359375f)));
+}
+
+// Sine and cosine of 2 pi (word + 1/2) / 2^32: the quadrant is in the upper bits.
+HWY_INLINE SineCosine<F> sine_cosine_of_turn(W words) {
+  const Floats d;
+  const Words dw;
+  const Integers di;
+  const W quadrant = hn::ShiftRight<30>(hn::Add(words, hn::Set(dw, 1u << 29)));
+  const auto rest = hn::BitCast(di, hn::Sub(words, hn::ShiftLeft<30>(quadrant)));
+  const F middle = hn::Add(hn::ConvertTo(d, rest), hn::Set(d, 0.5f));
+  const auto [sine, cosine] = sine_cosine_core(d, hn::Mul(middle, hn::Set(d, 1.46291807926715968e-9f)), 0.0f);
+  return in_quadrant(d, di, hn::BitCast(di, quadrant), sine, cosine);
+}
+
+// Box & Muller 1958.
+HWY_INLINE void store_normal_pair(W first, W second, float* a, float* b) {
+  const Floats d;
+  const F radius = hn::Sqrt(hn::Mul(log_of_uniform(first), hn::Set(d, -2.0f)));
+  const auto [sine, cosine] = sine_cosine_of_turn(second);
+  hn::Store(hn::Mul(radius, cosine), d, a);
+  hn::Store(hn::Mul(radius, sine), d, b);
+}
+
+void fill_normals(const PhiloxCounter& first, const PhiloxKey& key, std::size_t count, NormalBatch& batch) {
+  for (std::size_t i = 0; i < count; i += hn::Lanes(Floats())) {
+    const WordsOfItems words = philox(first, key, static_cast<std::uint32_t>(i));
+    store_normal_pair(words.w0, words.w1, &batch.number[0][i], &batch.number[1][i]);
+    store_normal_pair(words.w2, words.w3, &batch.number[2][i], &batch.number[3][i]);
+  }
+}
+
+}  // namespace cairn::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace cairn {
+
+HWY_EXPORT(fill_normals);
+
+void NormalBatch::fill(const RandomStream& random, std::uint32_t first, std::size_t count,
+                       std::uint16_t draw) {
+  CAIRN_ASSERT(count <= kCapacity);
+  HWY_DYNAMIC_DISPATCH(fill_normals)(random.counter(first, draw), random.key(), count, *this);
+}
+
+}  // namespace cairn
+#endif  // HWY_ONCE

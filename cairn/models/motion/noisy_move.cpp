@@ -1,0 +1,97 @@
+#include "cairn/models/motion/noisy_move.hpp"
+
+#include "cairn/core/angle.hpp"
+#include "cairn/core/errors.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "cairn/models/motion/noisy_move.cpp"
+// Highway must come first.
+// clang-format off
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+#include "cairn/core/simd_math-inl.h"
+// clang-format on
+
+HWY_BEFORE_NAMESPACE();
+namespace cairn::HWY_NAMESPACE {
+
+using Doubles = hn::ScalableTag<double>;
+using D = hn::Vec<Doubles>;
+
+// normalize_angle for angles of less than 2^50 turns.
+HWY_INLINE D normalized(D angle) {
+  const Doubles d;
+  const D bias = hn::Set(d, rounding_bias(d));
+  const D turns = hn::Sub(hn::Add(hn::Mul(angle, hn::Set(d, 1.0 / kTwoPi)), bias), bias);
+  const D wrapped = hn::Sub(angle, hn::Mul(turns, hn::Set(d, kTwoPi)));
+  const D low = hn::Set(d, -kPi);
+  return hn::IfThenElse(hn::Lt(wrapped, hn::Set(d, kPi)), hn::Max(wrapped, low), low);
+}
+
+// A vector of states, their doubles one after the other.
+HWY_INLINE void move_vector(const NoisyMove& m, double* states, const NormalBatch& noise, std::size_t i) {
+  const Doubles d;
+  const hn::Rebind<float, Doubles> df;
+  const auto noisy = [&](double mean, double sigma, std::size_t k) {
+    const D n = hn::PromoteTo(d, hn::LoadU(df, &noise.number[k][i]));
+    return hn::Add(hn::Set(d, mean), hn::Mul(hn::Set(d, sigma), n));
+  };
+  D x, y, theta;
+  hn::LoadInterleaved3(d, states, x, y, theta);
+  const D heading = hn::Add(theta, noisy(m.turn1, m.sigma_turn1, 0));
+  const D along = noisy(m.drive, m.sigma_drive, 1), across = noisy(m.aside, m.sigma_aside, 3);
+  const auto [s, c] = sine_cosine(d, heading);
+  const D new_x = hn::Sub(hn::Add(x, hn::Mul(c, along)), hn::Mul(s, across));
+  const D new_y = hn::Add(hn::Add(y, hn::Mul(s, along)), hn::Mul(c, across));
+  const D new_theta = normalized(hn::Add(heading, noisy(m.turn2, m.sigma_turn2, 2)));
+  hn::StoreInterleaved3(new_x, new_y, new_theta, d, states);
+}
+
+void apply_all(const NoisyMove& move, double* states, std::size_t count, const NormalBatch& noise) {
+  constexpr std::size_t kLanes = hn::MaxLanes(Doubles());
+  std::size_t i = 0;
+  for (; i + kLanes <= count; i += kLanes) move_vector(move, states + 3 * i, noise, i);
+  if (i == count) return;
+  double rest[3 * kLanes] = {};
+  std::copy_n(states + 3 * i, 3 * (count - i), rest);
+  move_vector(move, rest, noise, i);
+  std::copy_n(rest, 3 * (count - i), states + 3 * i);
+}
+
+}  // namespace cairn::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace cairn {
+namespace {
+
+HWY_EXPORT(apply_all);
+
+// Within, the fast sine and cosine are exact to the last digits.
+constexpr double kLargestHeading = 1e5;
+
+}  // namespace
+
+Pose2 NoisyMove::applied(const Pose2& state, double n_turn1, double n_drive, double n_turn2,
+                         double n_aside) const {
+  const double heading = state.theta + (turn1 + sigma_turn1 * n_turn1);
+  const double along = drive + sigma_drive * n_drive, across = aside + sigma_aside * n_aside;
+  const double c = std::cos(heading), s = std::sin(heading);
+  return {state.x + c * along - s * across, state.y + s * along + c * across,
+          normalize_angle(heading + (turn2 + sigma_turn2 * n_turn2))};
+}
+
+void apply(const NoisyMove& move, std::span<Pose2> states, const NormalBatch& noise) {
+  CAIRN_ASSERT(states.size() <= NormalBatch::kCapacity);
+  static_assert(sizeof(Pose2) == 3 * sizeof(double));
+  for (Pose2& state : states) {
+    if (!(std::abs(state.theta) < kLargestHeading)) state.theta = normalize_angle(state.theta);
+  }
+  HWY_DYNAMIC_DISPATCH(apply_all)(move, &states.data()->x, states.size(), noise);
+}
+
+}  // namespace cairn
+#endif  // HWY_ONCE

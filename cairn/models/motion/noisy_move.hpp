@@ -1,0 +1,32 @@
+#pragma once
+
+#include "cairn/core/normal_batch.hpp"
+#include "cairn/core/pose2.hpp"
+
+#include <span>
+
+namespace cairn {
+
+/// A motion split into turn, drive, turn, with the standard deviations of its parts: what remains of the
+/// odometry and the options of DifferentialDrive once a whole batch of particles is to be moved.
+struct NoisyMove {
+  double turn1 = 0.0;
+  double drive = 0.0;
+  double turn2 = 0.0;
+  double aside = 0.0;  ///< to the left while driving
+  double sigma_turn1 = 0.0;
+  double sigma_drive = 0.0;
+  double sigma_turn2 = 0.0;
+  double sigma_aside = 0.0;
+
+  /// One state, with standard normal numbers for turn 1, drive, turn 2 and aside: the plain form, the oracle
+  /// of the batch.
+  Pose2 applied(const Pose2& state, double n_turn1, double n_drive, double n_turn2, double n_aside) const;
+};
+
+/// Moves all states, in double precision on all lanes (see simd.hpp). Column i of the batch is for state i;
+/// the results differ from NoisyMove::applied by rounding only, and are the same bits on every path and in
+/// every batch. @pre states.size() <= NormalBatch::kCapacity
+void apply(const NoisyMove& move, std::span<Pose2> states, const NormalBatch& noise);
+
+}  // namespace cairn
