@@ -136,11 +136,16 @@ HWY_INLINE void store_normal_pair(W first, W second, float* a, float* b) {
   hn::Store(hn::Mul(radius, sine), d, b);
 }
 
+// The words of the next items are made while those of the current ones become normal numbers: two long chains
+// of operations side by side.
 void fill_normals(const PhiloxCounter& first, const PhiloxKey& key, std::size_t count, NormalBatch& batch) {
-  for (std::size_t i = 0; i < count; i += hn::Lanes(Floats())) {
-    const WordsOfItems words = philox(first, key, static_cast<std::uint32_t>(i));
+  const std::size_t lanes = hn::Lanes(Floats());
+  WordsOfItems words = philox(first, key, 0);
+  for (std::size_t i = 0; i < count; i += lanes) {
+    const WordsOfItems next = philox(first, key, static_cast<std::uint32_t>(i + lanes));
     store_normal_pair(words.w0, words.w1, &batch.number[0][i], &batch.number[1][i]);
     store_normal_pair(words.w2, words.w3, &batch.number[2][i], &batch.number[3][i]);
+    words = next;
   }
 }
 

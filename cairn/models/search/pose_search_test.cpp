@@ -2,6 +2,7 @@
 
 #include "cairn/core/angle.hpp"
 #include "cairn/core/errors.hpp"
+#include "cairn/models/sensor/likelihood_field_reference.hpp"
 #include "mini_maps.hpp"
 
 #include <algorithm>
@@ -86,8 +87,8 @@ TEST(PoseSearch, ScoresAsTheLikelihoodField) {
   LikelihoodFieldOptions model;
   model.max_beams = 0;
   model.effective_beams = 1e5;
-  const LikelihoodField field(std::make_shared<const DistanceField>(map, model.max_distance_m), {}, {},
-                              model);
+  const LikelihoodFieldReference field(std::make_shared<const DistanceField>(map, model.max_distance_m), {},
+                                       {}, model);
   const PoseSearch search(map, model);
   const LaserScan scan = test::scan_of(map, {2.0, 3.0, 0.5}, 90);
   for (const Pose2& pose : {Pose2{2.0, 3.0, 0.5}, Pose2{6.1, 1.2, -2.0}, Pose2{-50.0, 0.0, 0.0}}) {
