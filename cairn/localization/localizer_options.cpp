@@ -103,11 +103,25 @@ void FilterOptions::validate() const {
   }
 }
 
+TriggerOptions UpdateOptions::trigger() const {
+  TriggerOptions trigger;
+  trigger.when = when;
+  trigger.min_translation_m = min_translation_m;
+  trigger.min_rotation_rad = min_rotation_rad;
+  trigger.every_n = every_n;
+  trigger.rate_hz = rate_hz;
+  return trigger;
+}
+
 void UpdateOptions::visit(OptionVisitor& v) {
+  v.choice({"when", "what makes a scan worth an update: motion, updates (every n-th) or rate"}, when,
+           {"motion", "updates", "rate"});
   v.number({"min_translation_m", "a scan is used after this much driving, metres", {"update_min_d"}},
            min_translation_m, {0.0, 100.0});
   v.number({"min_rotation_rad", "or after this much turning, radians", {"update_min_a"}}, min_rotation_rad,
            {0.0, 7.0});
+  v.integer({"every_n", "updates: every n-th scan of a stream is used"}, every_n, {1, 1'000'000});
+  v.number({"rate_hz", "rate: one scan of a stream is used per period, hertz"}, rate_hz, {1e-3, 1e4});
 }
 
 void InitialOptions::visit(OptionVisitor& v) {

@@ -46,11 +46,16 @@ struct FilterOptions {
   void validate() const;  ///< @throws ConfigurationError
 };
 
-/// When a scan is worth an update: after either motion since the last one.
+/// When a scan is worth an update: after either motion since the last one of its stream, unless told
+/// otherwise.
 struct UpdateOptions {
   double min_translation_m = 0.1;
   double min_rotation_rad = 0.1;
+  std::string when = "motion";  ///< motion, updates (every n-th scan of a stream) or rate
+  int every_n = 1;
+  double rate_hz = 5.0;
 
+  TriggerOptions trigger() const;
   void visit(OptionVisitor& visitor);
 };
 

@@ -119,6 +119,25 @@ TEST_F(MonteCarloLocalizerTest, CutsTheMotionAtTheStampOfTheScan) {
   EXPECT_EQ(localizer_->updates(), 1);
 }
 
+// 50 scans, 5 a second.
+TEST_F(MonteCarloLocalizerTest, AnotherTriggerThanMotionDecidesWhichScansAreUsed) {
+  LocalizerOptions options = few_particles();
+  options.update.when = "updates";
+  options.update.every_n = 3;
+  make(options);
+  drive(10.0);
+  EXPECT_EQ(count(Outcome::kUsed), 17);
+  EXPECT_EQ(count(Outcome::kNotNeeded), 33);
+  options.update.when = "rate";
+  options.update.rate_hz = 2.0;
+  make(options);
+  drive(10.0);
+  EXPECT_EQ(count(Outcome::kUsed), 20);
+  EXPECT_EQ(count(Outcome::kNotNeeded), 30);
+  options.update.when = "ess";  // a trigger, but not for this
+  EXPECT_THAT(refusal(options), HasSubstr("update.when"));
+}
+
 TEST_F(MonteCarloLocalizerTest, TellsAtOnceWhatBecameOfAScanThatNeedNotWait) {
   make();
   odometry(0.0);

@@ -22,15 +22,18 @@ PoseBelief::PoseBelief(std::unique_ptr<PoseFilter> filter,
                        std::unique_ptr<GlobalStart> global_start, std::shared_ptr<const Executor> executor)
     : filter_(std::move(filter)),
       models_(std::move(models)),
-      trigger_(trigger),
+      walk_(trigger.walk),
+      update_trigger_(make_trigger(trigger.update.trigger())),
       global_start_(std::move(global_start)),
       executor_(std::move(executor)) {
   state_.used_at.resize(models_.size());
+  state_.offered.resize(models_.size());
 }
 
 PoseBelief::Application PoseBelief::apply(const Event& event, const OdometryTrack& odometry,
                                           const Scheduler& scheduler) {
   resolve_anchors(odometry);
+  ++state_.offered[event.stream];
   Application applied;
   applied.used = !state_.started || worth_an_update(event.stream, event.stamp, odometry, scheduler);
   if (applied.used) applied.work = update(event, odometry);
@@ -57,11 +60,12 @@ bool PoseBelief::worth_an_update(StreamId stream, Time stamp, const OdometryTrac
   if (!last) return true;
   if (!scheduler.due(stream, last->stamp, stamp)) return false;
   const PoseControl moved = odometry.control(*last, stamp);
-  const double strayed_m = trigger_.walk.sigma_m_after(moved.unknown_s);
-  const double strayed_rad = trigger_.walk.sigma_rad_after(moved.unknown_s);
   const Pose2& T = moved.T_before_after;
-  return std::hypot(T.x, T.y) + strayed_m >= trigger_.update.min_translation_m ||
-         std::abs(T.theta) + strayed_rad >= trigger_.update.min_rotation_rad;
+  return update_trigger_->due({.last = last->stamp,
+                               .now = stamp,
+                               .updates = state_.offered[stream],
+                               .translation_m = std::hypot(T.x, T.y) + walk_.sigma_m_after(moved.unknown_s),
+                               .rotation_rad = std::abs(T.theta) + walk_.sigma_rad_after(moved.unknown_s)});
 }
 
 UpdateWork PoseBelief::update(const Event& event, const OdometryTrack& odometry) {
@@ -77,6 +81,7 @@ UpdateWork PoseBelief::update(const Event& event, const OdometryTrack& odometry)
   }
   state_.updated_at = odometry.anchor_at(event.stamp);
   state_.used_at[event.stream] = state_.updated_at;
+  state_.offered[event.stream] = 0;
   const PoseSummary now = filter_->summarize();
   state_.updated = {.stamp = event.stamp,
                     .T_map_base = now.T_map_base,

@@ -61,6 +61,7 @@ class PoseBelief {
     OdometryAnchor updated_at;                           ///< of the last update
     Estimate updated;                                    ///< the belief right after it
     std::vector<std::optional<OdometryAnchor>> used_at;  ///< per stream, its last measurement that was used
+    std::vector<std::int64_t> offered;                   ///< per stream, how many came since
   };
 
  public:
@@ -82,7 +83,8 @@ class PoseBelief {
 
   std::unique_ptr<PoseFilter> filter_;
   std::vector<std::unique_ptr<const StreamModel>> models_;
-  Trigger trigger_;
+  RandomWalkOptions walk_;
+  std::unique_ptr<const cairn::Trigger> update_trigger_;
   std::unique_ptr<GlobalStart> global_start_;
   std::shared_ptr<const Executor> executor_;
   State state_;
