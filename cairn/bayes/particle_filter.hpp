@@ -59,8 +59,8 @@ struct ParticleFilterCheckpoint {
 /// the number of particles set by a SampleSize (KLD-sampling: Fox 2003, table 1).
 ///
 /// Deterministic: the same initial particles, controls, measurements and seed give the same bytes for any
-/// number of threads of the executor. Not itself thread-safe. Allocates only when the set grows beyond its
-/// largest size.
+/// number of threads of the executor. Not itself thread-safe. On one thread it allocates only when the set
+/// grows beyond its largest size, as far as its parts and models allow.
 template <class State, class Control>
 class ParticleFilter {
  public:
@@ -228,7 +228,7 @@ class ParticleFilter {
 
   void move(const Control& u, const Motion& motion, std::span<State> states, std::size_t first) {
     const RandomStream random = stream(RandomPurpose::kMotion);
-    executor_->for_each_chunk(states.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    in_chunks(states.size(), [&](std::size_t begin, std::size_t end) {
       motion.propagate(u, states.subspan(begin, end - begin),
                        random.from_item(static_cast<std::uint32_t>(first + begin)));
     });
@@ -249,7 +249,7 @@ class ParticleFilter {
 
   void evaluate(const BoundUpdate<State>& z) {
     log_likelihoods_.resize(particles_.size());
-    executor_->for_each_chunk(particles_.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    in_chunks(particles_.size(), [&](std::size_t begin, std::size_t end) {
       z.log_likelihood(std::span<const State>(particles_.states).subspan(begin, end - begin),
                        std::span(log_likelihoods_).subspan(begin, end - begin));
     });
@@ -266,7 +266,8 @@ class ParticleFilter {
   // Multiplies the weights by the likelihood to the power of at most `share`; returns the power.
   double weigh(double share) {
     const double min_ess = options_.min_ess_share * static_cast<double>(particles_.size());
-    const double power = tempering_exponent(particles_.log_weights, log_likelihoods_, min_ess, share);
+    const double power =
+        tempering_exponent(particles_.log_weights, log_likelihoods_, min_ess, share, cumulative_);
     for (std::size_t i = 0; i < particles_.size(); ++i)
       particles_.log_weights[i] += power * log_likelihoods_[i];
     normalize_log_weights(particles_.log_weights);
@@ -324,6 +325,12 @@ class ParticleFilter {
     ess_ = n;
   }
 
+  // A reference fits into a std::function without allocating; a lambda of many captures does not.
+  template <class Work>
+  void in_chunks(std::size_t items, const Work& work) const {
+    executor_->for_each_chunk(items, kChunk, std::cref(work));
+  }
+
   RandomStream stream(RandomPurpose purpose) const { return {options_.seed, purpose, step_}; }
 
   template <class Visit>
@@ -341,7 +348,7 @@ class ParticleFilter {
   ParticleFilterOptions options_;
   ParticleSet<State> particles_;
   std::vector<State> next_;
-  std::vector<double> cumulative_;
+  std::vector<double> cumulative_;  ///< of the weights; besides, scratch
   std::vector<std::uint32_t> ancestors_;
   std::vector<double> log_likelihoods_;
   std::uint64_t step_ = 0;

@@ -5,7 +5,6 @@
 #include "cairn/core/statistics.hpp"
 
 #include <cmath>
-#include <vector>
 
 namespace cairn {
 
@@ -20,10 +19,10 @@ void PoseKernelOptions::visit(OptionVisitor& v) {
 }
 
 bool PoseKernel::fit(const ParticleSet<Pose2>& particles) {
-  std::vector<double> weights(particles.size());
-  for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = std::exp(particles.log_weights[i]);
+  weights_.resize(particles.size());
+  for (std::size_t i = 0; i < weights_.size(); ++i) weights_[i] = std::exp(particles.log_weights[i]);
   const bool compact =
-      fit_group(particles.states, weights) || fit_heaviest_cluster(particles.states, weights);
+      fit_group(particles.states, weights_) || fit_heaviest_cluster(particles.states, weights_);
   if (!compact) sigma_ = {options_.wide_m, options_.wide_m, options_.wide_rad};
   return compact;
 }

@@ -4,6 +4,8 @@
 #include "cairn/core/options.hpp"
 #include "cairn/core/pose2.hpp"
 
+#include <vector>
+
 namespace cairn {
 
 struct PoseKernelOptions {
@@ -33,6 +35,7 @@ class PoseKernel final : public Regularization<Pose2> {
 
   PoseKernelOptions options_;
   Pose2 sigma_;
+  std::vector<double> weights_;  ///< scratch
 };
 
 }  // namespace cairn

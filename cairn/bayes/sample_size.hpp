@@ -1,13 +1,13 @@
 #pragma once
 
 #include "cairn/bayes/filter_part.hpp"
+#include "cairn/bayes/key_set.hpp"
 #include "cairn/bayes/kld.hpp"
 #include "cairn/core/pose2.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <span>
-#include <unordered_set>
 
 namespace cairn {
 
@@ -63,7 +63,7 @@ class KldSize final : public SampleSize<Pose2> {
   PoseBins bins_;
   std::size_t min_;
   std::size_t max_;
-  std::unordered_set<std::uint64_t> occupied_;
+  KeySet occupied_;
 };
 
 }  // namespace cairn

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace cairn {
 namespace {
@@ -29,9 +28,15 @@ double tempered_ess(std::span<const double> priors, std::span<const double> like
 
 double tempering_exponent(std::span<const double> log_priors, std::span<const double> log_likelihoods,
                           double min_ess, double largest) {
+  std::vector<double> scratch;
+  return tempering_exponent(log_priors, log_likelihoods, min_ess, largest, scratch);
+}
+
+double tempering_exponent(std::span<const double> log_priors, std::span<const double> log_likelihoods,
+                          double min_ess, double largest, std::vector<double>& scratch) {
   CAIRN_ASSERT(log_priors.size() == log_likelihoods.size());
   if (log_priors.empty() || min_ess <= 1.0) return largest;
-  std::vector<double> scratch(log_priors.size());
+  scratch.resize(log_priors.size());
   const auto keeps = [&](double log_exponent) {
     return tempered_ess(log_priors, log_likelihoods, std::exp(log_exponent), scratch) >= min_ess;
   };

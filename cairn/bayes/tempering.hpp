@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 namespace cairn {
 
@@ -15,5 +16,9 @@ namespace cairn {
 /// which bounds the case in which the priors alone have a smaller effective sample size.
 double tempering_exponent(std::span<const double> log_priors, std::span<const double> log_likelihoods,
                           double min_ess, double largest = 1.0);
+
+/// The same with a buffer that is used again and again, so that it allocates only when it grows.
+double tempering_exponent(std::span<const double> log_priors, std::span<const double> log_likelihoods,
+                          double min_ess, double largest, std::vector<double>& scratch);
 
 }  // namespace cairn
