@@ -3,6 +3,7 @@
 #include "cairn/localization/recipes.hpp"
 #include "cairn/models/sensor/likelihood_field.hpp"
 #include "mini_maps.hpp"
+#include "recipes.hpp"
 
 #include <cmath>
 #include <cstring>
@@ -11,9 +12,6 @@
 
 namespace cairn::test {
 namespace {
-
-/// Every recipe: one line each.
-const std::vector<std::string> kRecipes = {"mcl", "kld_mcl"};
 
 const Pose2 kTMapGrid{0.313, -0.217, 0.1};
 const Pose2 kStart{2.0, 1.2, 0.4};
@@ -43,7 +41,7 @@ struct Driven {
   std::vector<Pose2> means;
 };
 
-class RecipeLaws : public ::testing::TestWithParam<std::string> {
+class RecipeLaws : public ::testing::TestWithParam<RecipeCase> {
  protected:
   static const Drive& drive() {
     static const Drive kDrive = make_drive();
@@ -51,8 +49,7 @@ class RecipeLaws : public ::testing::TestWithParam<std::string> {
   }
 
   ParticleFilter<Pose2, Pose2> filter(int threads, std::uint64_t seed, const Pose2& T_new_map = {}) const {
-    LocalizerOptions options;
-    options.recipe = GetParam();
+    const LocalizerOptions options = GetParam().options();
     auto made = make_filter(options, seed, std::make_shared<const Executor>(threads));
     made.initialize([&](const RandomStream& random, std::uint32_t i) {
       const auto n = random.normal4(i);
@@ -117,6 +114,22 @@ TEST_P(RecipeLaws, FollowsTheFrameOfTheMap) {
   }
 }
 
+TEST_P(RecipeLaws, ACheckpointBringsBackEveryByte) {
+  const auto field = std::make_shared<const DistanceField>(mini_room(kTMapGrid), 2.0);
+  const LikelihoodField model(field, {}, {}, {});
+  const auto drive_on = [&](ParticleFilter<Pose2, Pose2>& belief, std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) belief.update(drive().controls[i], model.bind(drive().scans[i]));
+  };
+  auto straight = filter(1, 5), returned = filter(1, 5);
+  drive_on(straight, 0, 9);
+  drive_on(returned, 0, 5);
+  const auto checkpoint = returned.checkpoint();
+  drive_on(returned, 7, 10);  // what was not to be
+  returned.restore(checkpoint);
+  drive_on(returned, 5, 9);
+  EXPECT_TRUE(same_bytes({straight.particles(), {}}, {returned.particles(), {}}));
+}
+
 TEST_P(RecipeLaws, WeightsSumToOneAndNumbersAreFinite) {
   const Driven result = run(1, 5);
   ASSERT_EQ(result.particles.states.size(), result.particles.log_weights.size());
@@ -136,8 +149,8 @@ TEST_P(RecipeLaws, AMeasurementThatSaysNothingOnlyMovesTheBelief) {
   EXPECT_EQ(belief.share_entered(), 1.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Conformance, RecipeLaws, ::testing::ValuesIn(kRecipes),
-                         [](const auto& chosen) { return chosen.param; });
+INSTANTIATE_TEST_SUITE_P(Conformance, RecipeLaws, ::testing::ValuesIn(recipes()),
+                         [](const auto& chosen) { return chosen.param.name; });
 
 TEST(Recipes, AnUnknownNameIsAConfigurationError) {
   LocalizerOptions options;

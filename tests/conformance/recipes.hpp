@@ -1,0 +1,48 @@
+#pragma once
+
+#include "cairn/bayes/resampling/resampling_schemes.hpp"
+#include "cairn/bayes/triggers/triggers.hpp"
+#include "cairn/localization/localizer_options.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace cairn::test {
+
+/// A recipe of the particle filter with one of its parts exchanged.
+struct RecipeCase {
+  std::string name;
+  std::function<void(LocalizerOptions&)> choose;
+
+  LocalizerOptions options() const {
+    LocalizerOptions made;
+    choose(made);
+    return made;
+  }
+};
+
+/// Every recipe, one line each; and each of them with every resampling scheme and every trigger.
+inline std::vector<RecipeCase> recipes() {
+  std::vector<RecipeCase> cases;
+  for (const std::string recipe : {"mcl", "kld_mcl"}) {
+    cases.push_back({recipe, [recipe](LocalizerOptions& o) { o.recipe = recipe; }});
+    for (const std::string& scheme : resampling_schemes()) {
+      if (scheme == LocalizerOptions{}.filter.resampling) continue;
+      cases.push_back({recipe + "_" + scheme, [recipe, scheme](LocalizerOptions& o) {
+                         o.recipe = recipe;
+                         o.filter.resampling = scheme;
+                       }});
+    }
+    for (const std::string& trigger : trigger_names()) {
+      if (trigger == LocalizerOptions{}.filter.resample.when) continue;
+      cases.push_back({recipe + "_by_" + trigger, [recipe, trigger](LocalizerOptions& o) {
+                         o.recipe = recipe;
+                         o.filter.resample.when = trigger;
+                       }});
+    }
+  }
+  return cases;
+}
+
+}  // namespace cairn::test
