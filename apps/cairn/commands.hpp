@@ -22,6 +22,7 @@ void add_localize(CLI::App& program, Runner& run);
 void add_locate(CLI::App& program, Runner& run);
 void add_log(CLI::App& program, Runner& run);
 void add_map(CLI::App& program, Runner& run);
+void add_replay(CLI::App& program, Runner& run);
 void add_report(CLI::App& program, Runner& run);
 void add_score(CLI::App& program, Runner& run);
 void add_simulate(CLI::App& program, Runner& run);

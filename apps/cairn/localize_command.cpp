@@ -13,9 +13,12 @@
 #include "cairn/io/input_file.hpp"
 #include "cairn/io/log_reader.hpp"
 #include "cairn/io/map_reader.hpp"
+#include "cairn/io/recorder.hpp"
 #include "cairn/io/trajectory_reader.hpp"
+#include "cairn/maps/checksum.hpp"
 
 #include <chrono>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
@@ -37,6 +40,7 @@ struct Arguments {
   std::string seed = "1";
   int threads = 1;
   std::string out;
+  bool no_record = false;
 };
 
 // What the arguments name, read.
@@ -137,8 +141,10 @@ Start choose_start(const Arguments& arguments, const Inputs& inputs) {
   return {Pose2{pose.x + error.x, pose.y + error.y, normalize_angle(pose.theta + error.theta)}};
 }
 
-RunData to_run_data(Inputs& inputs, const LocalizeResult& result, const nlohmann::json& metrics) {
+RunData to_run_data(Inputs& inputs, const LocalizeResult& result, const nlohmann::json& metrics,
+                    bool recorded) {
   RunData run;
+  run.recorded = recorded;
   for (const Estimate& e : result.estimates) run.trajectory.push_back({e.stamp, e.T_map_base});
   sort_by_stamp(run.trajectory);
   run.estimates = result.estimates;
@@ -150,19 +156,47 @@ RunData to_run_data(Inputs& inputs, const LocalizeResult& result, const nlohmann
   return run;
 }
 
+// Absolute, so that the run can be had again from another folder.
+std::string absolute(const std::string& path) { return std::filesystem::absolute(path).lexically_normal(); }
+
+std::unique_ptr<Recorder> make_recorder(const Arguments& arguments, const Inputs& inputs,
+                                        const Start& start) {
+  if (arguments.no_record) return nullptr;
+  RunHeader header;
+  header.cairn_version = CAIRN_VERSION;
+  header.configuration =
+      write_configuration([options = inputs.options](OptionVisitor& v) mutable { options.visit(v); });
+  header.seed = parse_seed("--seed", arguments.seed);
+  header.T_map_base = start.T_map_base;
+  header.map_path = absolute(arguments.map);
+  header.map_checksum = checksum(*inputs.map);
+  header.log_path = absolute(arguments.log);
+  header.odometry_stream = inputs.options.odometry_stream;
+  return std::make_unique<Recorder>(prepare_recording(arguments.out), header, inputs.log.streams);
+}
+
 LocalizeResult run_with_progress(const Arguments& arguments, const Inputs& inputs) {
+  const Start start = choose_start(arguments, inputs);
+  LocalizeRequest request{.log = &inputs.log,
+                          .map = inputs.map,
+                          .options = inputs.options,
+                          .start = start,
+                          .seed = parse_seed("--seed", arguments.seed),
+                          .threads = arguments.threads};
+  const auto recorder = make_recorder(arguments, inputs, start);
+  if (recorder) {
+    request.on_event = [&](const Event& event) { recorder->record(event); };
+    request.on_estimate = [&](const Estimate& estimate) { recorder->record(estimate); };
+  }
   Progress progress("localizing", static_cast<std::int64_t>(inputs.log.events.size()));
   const InterruptGuard interrupt;
-  return localize({.log = &inputs.log,
-                   .map = inputs.map,
-                   .options = inputs.options,
-                   .start = choose_start(arguments, inputs),
-                   .seed = parse_seed("--seed", arguments.seed),
-                   .threads = arguments.threads,
-                   .go_on = [&](std::int64_t done) {
-                     progress.update(done);
-                     return !interrupt.requested();
-                   }});
+  request.go_on = [&](std::int64_t done) {
+    progress.update(done);
+    return !interrupt.requested();
+  };
+  LocalizeResult result = localize(request);
+  if (recorder) recorder->finish();
+  return result;
 }
 
 // What can be refused before anything is read.
@@ -191,7 +225,7 @@ int run_localize(const Arguments& arguments) {
                      .threads = arguments.threads,
                      .read_s = inputs.read_s},
                     inputs.log, *inputs.map, inputs.options, inputs.reference, inputs.diagnostics, result);
-  write_run(arguments.out, to_run_data(inputs, result, summary.metrics));
+  write_run(arguments.out, to_run_data(inputs, result, summary.metrics, !arguments.no_record));
   const std::string no_report = write_report(arguments.out);
   if (!no_report.empty()) spdlog::warn("no report.html: {}", no_report);
   std::cout << summary.text << "written to " << arguments.out << "\n";
@@ -209,7 +243,8 @@ void add_localize(CLI::App& program, Runner& run) {
   auto* command = program.add_subcommand("localize", "Localize a recorded robot in a map");
   auto a = std::make_shared<Arguments>();
   command->add_option("--map", a->map, "Map (map_server YAML, Wean)")->required();
-  command->add_option("--log", a->log, "Recording (CARMEN, ROS 1 bag, Wean, MRPT text)")->required();
+  command->add_option("--log", a->log, "Recording (CARMEN, ROS 1 or ROS 2 bag, MCAP, Wean, MRPT text)")
+      ->required();
   command->add_option("--config", a->config, "Configuration (YAML; see `cairn config`; nav2 AMCL files too)");
   command->add_option("--set", a->settings, "key=value, over the configuration; may be repeated");
   auto* init = command->add_option(
@@ -222,6 +257,8 @@ void add_localize(CLI::App& program, Runner& run) {
   command->add_option("--threads", a->threads, "Changes the time taken, never the results")
       ->capture_default_str();
   command->add_option("--out", a->out, "Folder for the results")->required();
+  command->add_flag("--no-record", a->no_record,
+                    "Do not write run.mcap, which `cairn replay` and Foxglove read");
   command->footer(
       "Exit code: 0 tracking to the end, 4 lost at the end, 1 ended early by Ctrl-C (what was computed is "
       "written "

@@ -59,13 +59,17 @@ LocalizeResult localize(const LocalizeRequest& request) {
   const auto executor = std::make_shared<const Executor>(request.threads);
   MonteCarloLocalizer localizer(request.options, request.log->streams, request.map, request.start,
                                 request.seed, executor);
-  localizer.set_observer([&](const Estimate& estimate) { result.estimates.push_back(estimate); });
+  localizer.set_observer([&](const Estimate& estimate) {
+    result.estimates.push_back(estimate);
+    request.on_estimate(estimate);
+  });
   result.prepare_s = seconds_since(prepare_started);
 
   const auto run_started = Clock::now();
   SnapshotTaker snapshots(*request.log, result.snapshots);
   std::int64_t done = 0;
   for (const Event& event : request.log->events) {
+    request.on_event(event);
     localizer.process(event);
     snapshots.look(localizer);
     if (!request.go_on(++done)) {

@@ -20,6 +20,9 @@ struct LocalizeRequest {
   Start start;
   std::uint64_t seed = 1;
   int threads = 1;
+  /// Told every event before the localizer takes it, and every estimate when it comes: for a recorder.
+  std::function<void(const Event&)> on_event = [](const Event&) {};
+  std::function<void(const Estimate&)> on_estimate = [](const Estimate&) {};
   /// Asked after every event with the number of events done; false ends the run there.
   std::function<bool(std::int64_t)> go_on = [](std::int64_t) { return true; };
 };

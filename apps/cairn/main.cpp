@@ -45,6 +45,7 @@ int main(int argc, char** argv) {
   cairn::app::add_locate(program, run);
   cairn::app::add_log(program, run);
   cairn::app::add_map(program, run);
+  cairn::app::add_replay(program, run);
   cairn::app::add_report(program, run);
   cairn::app::add_score(program, run);
   cairn::app::add_simulate(program, run);

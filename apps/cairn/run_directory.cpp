@@ -19,7 +19,9 @@ namespace fs = std::filesystem;
 constexpr const char* kStage = ".writing";
 constexpr const char* kMarker = "metrics.json";
 // Files that a run may lack: those of an earlier run must not stay beside a new one.
-constexpr const char* kOptional[] = {"particles.csv", "reference.tum", "map.yaml", "map.png", "report.html"};
+constexpr const char* kOptional[] = {"particles.csv", "reference.tum", "map.yaml",
+                                     "map.png",       "report.html",   "run.mcap"};
+constexpr const char* kRecording = "run.mcap";
 constexpr const char* kRunAgain = "write the run again with `cairn localize --out`";
 
 nlohmann::json read_metrics(const fs::path& path) {
@@ -64,6 +66,16 @@ void publish(const fs::path& stage, const fs::path& directory) {
   fs::remove_all(stage);
 }
 
+// Does the work; what the disk refuses becomes an InputError.
+template <class Work>
+auto or_refuse(const fs::path& directory, const Work& work) {
+  try {
+    return work();
+  } catch (const fs::filesystem_error& error) {
+    throw InputError(directory.string(), error.code().message(), "choose another --out or make room there");
+  }
+}
+
 // The nearest folder above that exists is where a new one must be made.
 void check_parent(const fs::path& directory) {
   fs::path parent = fs::absolute(directory);
@@ -93,18 +105,35 @@ void check_run_directory(const fs::path& directory) {
   }
 }
 
-void write_run(const fs::path& directory, const RunData& run) {
-  CAIRN_ASSERT(run.metrics.is_object() && run.metrics.contains("cairn_version"));
+fs::path prepare_recording(const fs::path& directory) {
   check_run_directory(directory);
-  try {
+  return or_refuse(directory, [&] {
     const fs::path stage = directory / kStage;
     fs::remove_all(stage);
     fs::create_directories(stage);
+    return stage / kRecording;
+  });
+}
+
+fs::path find_recording(const fs::path& directory) {
+  for (const fs::path& path : {directory / kRecording, directory / kStage / kRecording}) {
+    if (fs::is_regular_file(path)) return path;
+  }
+  throw InputError(directory.string(), "holds no recording (run.mcap)",
+                   "name the --out folder of a `cairn localize` run that was recorded, or the file");
+}
+
+void write_run(const fs::path& directory, const RunData& run) {
+  CAIRN_ASSERT(run.metrics.is_object() && run.metrics.contains("cairn_version"));
+  check_run_directory(directory);
+  or_refuse(directory, [&] {
+    const fs::path stage = directory / kStage;
+    CAIRN_ASSERT(!run.recorded || fs::is_regular_file(stage / kRecording));
+    if (!run.recorded) fs::remove_all(stage);
+    fs::create_directories(stage);
     write_stage(stage, run);
     publish(stage, directory);
-  } catch (const fs::filesystem_error& error) {
-    throw InputError(directory.string(), error.code().message(), "choose another --out or make room there");
-  }
+  });
 }
 
 RunData read_run(const fs::path& directory) {

@@ -24,6 +24,7 @@ struct RunData {
   std::shared_ptr<const OccupancyGrid> map;  ///< map.yaml and map.png; may be absent (null)
   std::vector<ParticleSnapshot> particles;   ///< particles.csv; may be empty
   std::optional<Trajectory> reference;       ///< reference.tum; absent without a reference
+  bool recorded = false;                     ///< run.mcap: write_run finds it where prepare_recording said
 };
 
 /// Refuses an existing DIR that is not empty and holds no earlier run (a metrics.json of Cairn), and a DIR
@@ -31,6 +32,15 @@ struct RunData {
 /// `--out`.
 /// @throws ConfigurationError
 void check_run_directory(const std::filesystem::path& directory);
+
+/// Makes DIR ready for a run that writes its recording while it goes on, and returns where to: a place within
+/// DIR/.writing, so that an earlier run stays whole until write_run replaces it.
+/// @throws ConfigurationError as check_run_directory; InputError where the disk refuses.
+std::filesystem::path prepare_recording(const std::filesystem::path& directory);
+
+/// The recording of a run: DIR/run.mcap; if there is none, that of a run which was killed while it wrote.
+/// @throws InputError if there is neither
+std::filesystem::path find_recording(const std::filesystem::path& directory);
 
 /// Writes all files, replacing those of an earlier run (its optional files and report.html go away).
 /// Everything is first written to DIR/.writing and then renamed, metrics.json last: a run cut short in

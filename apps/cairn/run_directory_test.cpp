@@ -215,5 +215,26 @@ TEST(RunTables, SayWhereTheDamageIs) {
   EXPECT_THROW(parse_particles("t,x\n", "p"), InputError);
 }
 
+TEST_F(RunDirectory, ARecordingIsWrittenBesideTheEarlierRunAndPublishedWithTheRest) {
+  write_run(directory_, small_run());
+  const fs::path recording = prepare_recording(directory_);
+  EXPECT_EQ(error_of_reading(), "");  // the earlier run is whole
+  write_file(recording, "recorded");
+  EXPECT_EQ(find_recording(directory_), recording);  // as after a kill
+  RunData run = small_run();
+  run.recorded = true;
+  write_run(directory_, run);
+  EXPECT_EQ(content("run.mcap"), "recorded");
+  EXPECT_EQ(find_recording(directory_), directory_ / "run.mcap");
+  EXPECT_FALSE(fs::exists(recording));
+}
+
+TEST_F(RunDirectory, ARunThatIsNotRecordedLeavesNoRecordingOfAnEarlierOne) {
+  write_file(prepare_recording(directory_), "recorded");
+  write_run(directory_, small_run());
+  EXPECT_FALSE(fs::exists(directory_ / "run.mcap"));
+  EXPECT_THROW(find_recording(directory_), InputError);
+}
+
 }  // namespace
 }  // namespace cairn::app

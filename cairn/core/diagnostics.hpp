@@ -22,6 +22,9 @@ class Diagnostics {
   /// Counts `n` further occurrences without an example.
   void count(const std::string& kind, std::int64_t n = 1) { counts_[kind] += n; }
 
+  /// Adds what another one has counted.
+  void add(const Diagnostics& other);
+
   bool empty() const { return counts_.empty(); }
   const std::map<std::string, std::int64_t>& counts() const { return counts_; }
   const std::vector<Example>& examples() const { return examples_; }

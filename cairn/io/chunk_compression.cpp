@@ -1,10 +1,13 @@
 #include "cairn/io/chunk_compression.hpp"
 
+#include "cairn/core/errors.hpp"
+
 #include <array>
 #include <memory>
 
 #include <bzlib.h>
 #include <lz4frame.h>
+#include <zstd.h>
 
 namespace cairn {
 namespace {
@@ -69,6 +72,30 @@ class Lz4Decoder {
   std::size_t hint_ = 1;
 };
 
+class ZstdDecoder {
+ public:
+  explicit ZstdDecoder(std::string_view packed)
+      : in_{packed.data(), packed.size(), 0}, context_(ZSTD_createDCtx()) {}
+
+  std::size_t decode(Buffer& buffer) {
+    if (!context_) return 0;
+    ZSTD_outBuffer out{buffer.data(), buffer.size(), 0};
+    hint_ = ZSTD_decompressStream(context_.get(), &out, &in_);
+    return failed() ? 0 : out.pos;
+  }
+  bool finished() const { return hint_ == 0; }
+  bool failed() const { return !context_ || ZSTD_isError(hint_) != 0; }
+  bool starved() const { return in_.pos == in_.size; }
+
+ private:
+  struct Free {
+    void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }
+  };
+  ZSTD_inBuffer in_;
+  std::unique_ptr<ZSTD_DCtx, Free> context_;
+  std::size_t hint_ = 1;
+};
+
 template <class Decoder>
 Unpacked unpack(Decoder decoder, std::size_t limit) {
   Unpacked result;
@@ -91,6 +118,30 @@ Unpacked unpack_bz2(std::string_view packed, std::size_t limit) { return unpack(
 
 Unpacked unpack_lz4_frame(std::string_view packed, std::size_t limit) {
   return unpack(Lz4Decoder(packed), limit);
+}
+
+Unpacked unpack_zstd_frame(std::string_view packed, std::size_t limit) {
+  return unpack(ZstdDecoder(packed), limit);
+}
+
+std::string pack_lz4_frame(std::string_view bytes) {
+  LZ4F_preferences_t preferences{};
+  preferences.frameInfo.contentSize = bytes.size();
+  std::string packed(LZ4F_compressFrameBound(bytes.size(), &preferences), '\0');
+  const std::size_t size =
+      LZ4F_compressFrame(packed.data(), packed.size(), bytes.data(), bytes.size(), &preferences);
+  CAIRN_ASSERT(LZ4F_isError(size) == 0);
+  packed.resize(size);
+  return packed;
+}
+
+std::string pack_zstd_frame(std::string_view bytes) {
+  std::string packed(ZSTD_compressBound(bytes.size()), '\0');
+  const std::size_t size =
+      ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), ZSTD_CLEVEL_DEFAULT);
+  CAIRN_ASSERT(ZSTD_isError(size) == 0);
+  packed.resize(size);
+  return packed;
 }
 
 }  // namespace cairn

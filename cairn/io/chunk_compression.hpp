@@ -17,9 +17,15 @@ struct Unpacked {
   UnpackState state = UnpackState::kCorrupt;
 };
 
-/// Unpack one bzip2 stream or one LZ4 frame held in memory. The result grows with what really comes out and
-/// never beyond `limit` bytes, whatever the packed data announce. Nothing throws but std::bad_alloc.
+/// Unpack one bzip2 stream, one LZ4 frame or one Zstandard frame held in memory. The result grows with what
+/// really comes out and never beyond `limit` bytes, whatever the packed data announce. Nothing throws but
+/// std::bad_alloc.
 Unpacked unpack_bz2(std::string_view packed, std::size_t limit);
 Unpacked unpack_lz4_frame(std::string_view packed, std::size_t limit);
+Unpacked unpack_zstd_frame(std::string_view packed, std::size_t limit);
+
+/// Pack into one frame, with the speed that a running robot can afford.
+std::string pack_lz4_frame(std::string_view bytes);
+std::string pack_zstd_frame(std::string_view bytes);
 
 }  // namespace cairn

@@ -1,8 +1,11 @@
 #include "cairn/io/chunk_compression.hpp"
 
+#include <memory>
+
 #include <bzlib.h>
 #include <gtest/gtest.h>
 #include <lz4frame.h>
+#include <zstd.h>
 
 namespace cairn {
 namespace {
@@ -28,6 +31,15 @@ std::string pack_lz4(const std::string& text) {
       0, LZ4F_compressFrame(packed.data(), packed.size(), text.data(), text.size(), &preferences));
 }
 
+std::string pack_zstd(const std::string& text) {
+  const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(), ZSTD_freeCCtx);
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);  // as the zstd tool does
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_windowLog, 10);    // short blocks
+  std::string packed(ZSTD_compressBound(text.size()), '\0');
+  packed.resize(ZSTD_compress2(context.get(), packed.data(), packed.size(), text.data(), text.size()));
+  return packed;
+}
+
 struct Format {
   const char* name;
   Unpacked (*unpack)(std::string_view, std::size_t);
@@ -44,7 +56,8 @@ class ChunkCompression : public testing::TestWithParam<Format> {
 };
 INSTANTIATE_TEST_SUITE_P(Formats, ChunkCompression,
                          testing::Values(Format{"bz2", unpack_bz2, pack_bz2(content())},
-                                         Format{"lz4", unpack_lz4_frame, pack_lz4(content())}),
+                                         Format{"lz4", unpack_lz4_frame, pack_lz4(content())},
+                                         Format{"zstd", unpack_zstd_frame, pack_zstd(content())}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST_P(ChunkCompression, UnpacksWhatWasPacked) {
@@ -82,6 +95,14 @@ TEST_P(ChunkCompression, DamageIsNoticed) {
     EXPECT_TRUE(result.state != UnpackState::kComplete) << i;
   }
   EXPECT_EQ(unpack("no packed data at all, just text", text.size()).state, UnpackState::kCorrupt);
+}
+
+TEST(ChunkPacking, UnpacksToTheSame) {
+  for (const std::string& text : {content(), std::string(), std::string("x")}) {
+    EXPECT_EQ(unpack_lz4_frame(pack_lz4_frame(text), text.size()).bytes, text);
+    EXPECT_EQ(unpack_zstd_frame(pack_zstd_frame(text), text.size()).bytes, text);
+  }
+  EXPECT_LT(pack_lz4_frame(content()).size(), content().size());
 }
 
 }  // namespace

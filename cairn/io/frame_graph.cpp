@@ -3,7 +3,7 @@
 #include <deque>
 #include <utility>
 
-namespace cairn::ros1 {
+namespace cairn::ros {
 namespace {
 
 constexpr double kSamePosition = 1e-3;  // metres
@@ -47,4 +47,4 @@ std::optional<RigidTransform> FrameGraph::constant_transform(const std::string& 
   return found == T_target.end() ? std::nullopt : std::optional(found->second);
 }
 
-}  // namespace cairn::ros1
+}  // namespace cairn::ros

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "cairn/io/ros1_messages.hpp"
+#include "cairn/io/ros_messages.hpp"
 
 #include <map>
 #include <optional>
 #include <string>
 
-namespace cairn::ros1 {
+namespace cairn::ros {
 
 /// The coordinate frames of a recording and how they are mounted on each other: what tf said, and whether it
 /// always said the same. Moving transforms (odom -> base, a panning laser) join nothing here.
@@ -31,4 +31,4 @@ class FrameGraph {
   std::map<std::string, std::map<std::string, Edge>> edges_;  // from -> to, each link in both directions
 };
 
-}  // namespace cairn::ros1
+}  // namespace cairn::ros

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace cairn::ros1 {
+namespace cairn::ros {
 namespace {
 
 StampedTransform link(const std::string& parent, const std::string& child, double x, double yaw = 0.0) {
@@ -68,4 +68,4 @@ TEST(FrameGraph, UnknownFramesAreUnknown) {
 }
 
 }  // namespace
-}  // namespace cairn::ros1
+}  // namespace cairn::ros

@@ -66,6 +66,8 @@ std::string unpack(std::string bytes, const std::string& name, std::size_t max_b
       return unpack_gzip(bytes, name, max_bytes);
     case Packing::kBzip2:
       return unpack_bzip2(bytes, name, max_bytes);
+    case Packing::kZstd:
+      return unpack_zstd(bytes, name, max_bytes);
     case Packing::kNone:
       break;
   }

@@ -10,7 +10,7 @@ namespace cairn {
 /// Most that a file may hold, unpacked: 4 GiB.
 inline constexpr std::size_t kMaxInputBytes = std::size_t{4} << 30;
 
-/// Opens a file for reading, unpacking gzip and bzip2 on the way (told by content, not by name).
+/// Opens a file for reading, unpacking gzip, bzip2 and Zstandard on the way (told by content, not by name).
 /// The stream holds the whole unpacked content, at most `max_bytes`.
 /// @throws InputError if it does not exist, is a directory, may not be read, is empty, does not unpack, or
 ///   unpacks to more than the limit. A packed file cut short or with garbage is an error that names the byte

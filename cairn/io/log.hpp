@@ -12,7 +12,7 @@ namespace cairn {
 /// A recording, read whole. Events stand in the order of the file (the order of arrival), which need not be
 /// the order of their stamps.
 struct Log {
-  std::string format;  ///< "carmen", "wean", "rosbag1", "mrpt_text"
+  std::string format;  ///< "carmen", "wean", "rosbag1", "rosbag2_db3", "mcap", "cairn_mcap", "mrpt_text"
   std::vector<StreamInfo> streams;
   std::vector<Event> events;
   Diagnostics diagnostics;  ///< what was skipped or repaired while reading, counted

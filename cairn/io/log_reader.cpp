@@ -3,8 +3,11 @@
 #include "cairn/core/errors.hpp"
 #include "cairn/io/carmen_log.hpp"
 #include "cairn/io/input_file.hpp"
+#include "cairn/io/mcap_log.hpp"
+#include "cairn/io/mcap_reader.hpp"
 #include "cairn/io/mrpt_text_log.hpp"
 #include "cairn/io/rosbag1.hpp"
+#include "cairn/io/rosbag2_db3.hpp"
 #include "cairn/io/text_fields.hpp"
 #include "cairn/io/wean_log.hpp"
 
@@ -74,21 +77,16 @@ std::string shown(std::string_view bytes) {
   return text;
 }
 
-std::string remedy_for(std::string_view head) {
-  if (head.starts_with("SQLite format 3") || head.starts_with("\x89MCAP")) {
-    return "this looks like a ROS 2 bag: convert it to a ROS 1 bag";
-  }
-  return "give a CARMEN, Wean Hall or MRPT text log or a ROS 1 bag";
-}
-
 }  // namespace
 
 Log read_log(std::istream& input, const std::string& name) {
   const std::string head = head_of(input);
   if (is_rosbag1(head)) return read_rosbag1(input, name);
+  if (mcap::is_mcap(head)) return read_mcap_log(input, name);
+  if (is_rosbag2_db3(head)) return read_rosbag2_db3(input, name);
   if (const ReadLog reader = reader_of_text(head, name)) return reader(input, name);
   throw InputError(name, "is no log of a known format, it begins with \"" + shown(head) + "\"",
-                   remedy_for(head));
+                   "give a CARMEN, Wean Hall or MRPT text log, a ROS 1 or ROS 2 bag, or an MCAP file");
 }
 
 Log read_log(const std::filesystem::path& path) { return read_log(*open_input(path), path.string()); }

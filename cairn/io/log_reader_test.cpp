@@ -2,6 +2,7 @@
 
 #include "cairn/core/errors.hpp"
 #include "cairn/core/rng.hpp"
+#include "cairn/io/mcap_log_writer.hpp"
 #include "log_inspection.hpp"
 #include "test_data.hpp"
 
@@ -40,6 +41,15 @@ TEST(LogReader, KnowsTextLogsByTheirLines) {
   EXPECT_EQ(format_of("FRAME 0\nLASER 1 2 80 3 0 0 0 1 2\n"), "mrpt_text");
 }
 
+TEST(LogReader, KnowsBagsByTheirFirstBytes) {
+  std::ostringstream mcap;
+  write_mcap_log(mcap, {});
+  EXPECT_EQ(format_of(mcap.str()), "mcap");
+  EXPECT_THAT(error_of("\x89MCAP0\r\n"), HasSubstr("header of the MCAP file is damaged or cut short"));
+  EXPECT_THAT(error_of(std::string("SQLite format 3\0", 16)), HasSubstr("ends within its header"));
+  EXPECT_THAT(error_of("#ROSBAG V2.0\n"), HasSubstr("bag's header"));
+}
+
 TEST(LogReader, DamagedFirstLineDoesNotDecide) {
   EXPECT_EQ(format_of("0.25 nohost 0.1\n" + kOdom + kOdom), "carmen");
 }
@@ -67,7 +77,7 @@ TEST(LogReader, OtherContentSaysHowItBegins) {
   EXPECT_THAT(error_of("hello world\n"),
               AllOf(HasSubstr("begins with \"hello world\\x0a\""), HasSubstr("CARMEN")));
   EXPECT_THAT(error_of("\x89PNG\r\n"), HasSubstr("\"\\x89PNG\\x0d\\x0a\""));
-  EXPECT_THAT(error_of("\x89MCAP0\r\n"), HasSubstr("ROS 2 bag"));
+  EXPECT_THAT(error_of("hello world\n"), HasSubstr("ROS 2 bag"));
   EXPECT_THAT(error_of(""), HasSubstr("begins with \"\""));
   EXPECT_LT(error_of(std::string(100000, '\x01')).size(), 300U);
 }

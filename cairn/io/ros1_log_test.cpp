@@ -24,7 +24,7 @@ class Ros1LogTest : public testing::Test {
  protected:
   void add(std::string_view type, std::string_view md5sum, std::string_view topic, const std::string& bytes) {
     ++arrival_;
-    log_.add({type, md5sum, topic, Time(std::chrono::seconds(arrival_)), bytes, 4117});
+    log_.add({type, topic, Time(std::chrono::seconds(arrival_)), bytes, 4117}, md5sum);
   }
   void scan(const ScanFields& fields) { raw_scan(test::scan_message(fields)); }
   void raw_scan(const std::string& bytes) {

@@ -1,28 +1,20 @@
 #include "cairn/io/ros1_messages.hpp"
 
-#include "cairn/core/angle.hpp"
 #include "cairn/io/byte_reader.hpp"
 #include "cairn/io/rosbag1_records.hpp"
 
-#include <cmath>
+#include <array>
 #include <cstring>
 
 namespace cairn::ros1 {
 namespace {
 
-constexpr double kMaxAngle = 2.0 * kTwoPi;
-constexpr double kMaxCoordinate = 1e7;  // metres
-constexpr double kMaxNormError = 0.01;  // of a quaternion; beyond it, it was no rotation
+using ros::Header;
+using ros::LaserScanMessage;
+using ros::require;
+using ros::StampedTransform;
 
-void require(bool condition, const char* otherwise) {
-  if (!condition) throw MalformedMessage(otherwise);
-}
-
-std::string read_frame(ByteReader& bytes) {
-  std::string_view name = bytes.block();
-  if (name.starts_with('/')) name.remove_prefix(1);
-  return std::string(name);
-}
+std::string read_frame(ByteReader& bytes) { return ros::frame_name(bytes.block()); }
 
 Header read_header(ByteReader& bytes) {
   bytes.number<std::uint32_t>();  // seq
@@ -41,15 +33,10 @@ std::vector<float> read_floats(ByteReader& bytes) {
   return values;
 }
 
-std::optional<RigidTransform> read_transform(ByteReader& bytes) {
-  double v[7];
-  for (double& value : v) value = bytes.number<double>();
-  RigidTransform transform{{v[0], v[1], v[2]}, {v[6], v[3], v[4], v[5]}};  // Eigen takes w first
-  const double norm = transform.rotation.norm();
-  const bool is_near = transform.position.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= kMaxCoordinate;
-  if (!is_near || !(std::abs(norm - 1.0) <= kMaxNormError)) return std::nullopt;
-  transform.rotation.coeffs() /= norm;
-  return transform;
+std::optional<ros::RigidTransform> read_transform(ByteReader& bytes) {
+  std::array<double, 7> values;
+  for (double& value : values) value = bytes.number<double>();
+  return ros::rigid_transform(values);
 }
 
 StampedTransform read_stamped_transform(ByteReader& bytes) {
@@ -59,17 +46,6 @@ StampedTransform read_stamped_transform(ByteReader& bytes) {
   transform.T_parent_child = read_transform(bytes);
   require(bytes.ok(), "it ends early");
   return transform;
-}
-
-void check_scan(const LaserScan& scan) {
-  require(!scan.ranges_m.empty(), "a scan without beams");
-  require(std::abs(scan.angle_min_rad) <= kMaxAngle, "angle_min is no angle in radians");
-  require(std::abs(scan.angle_increment_rad) <= kMaxAngle, "angle_increment is no angle in radians");
-  const double sweep = std::abs(scan.angle_increment_rad) * static_cast<double>(scan.ranges_m.size());
-  require(sweep <= kMaxAngle, "its beams turn by more than two turns");
-  require(scan.angle_increment_rad != 0.0 || scan.ranges_m.size() == 1, "angle_increment is zero");
-  require(scan.range_min_m >= 0.0 && scan.range_max_m > scan.range_min_m,
-          "range_min and range_max enclose nothing");
 }
 
 }  // namespace
@@ -88,7 +64,7 @@ LaserScanMessage decode_laser_scan(std::string_view message) {
   scan.ranges_m = read_floats(bytes);
   bytes.take(bytes.number<std::uint32_t>() * sizeof(float));  // intensities
   require(bytes.ok(), "it ends early");
-  check_scan(scan);
+  ros::check_scan(scan);
   return result;
 }
 
@@ -111,21 +87,6 @@ std::vector<StampedTransform> decode_transforms(std::string_view message) {
   transforms.reserve(count);
   for (std::size_t i = 0; i < count; ++i) transforms.push_back(read_stamped_transform(bytes));
   return transforms;
-}
-
-Pose2 planar(const RigidTransform& transform) {
-  const Eigen::Vector3d forward = transform.rotation * Eigen::Vector3d::UnitX();
-  return {transform.position.x(), transform.position.y(),
-          normalize_angle(std::atan2(forward.y(), forward.x()))};
-}
-
-RigidTransform operator*(const RigidTransform& T_a_b, const RigidTransform& T_b_c) {
-  return {T_a_b.position + T_a_b.rotation * T_b_c.position, T_a_b.rotation * T_b_c.rotation};
-}
-
-RigidTransform inverse(const RigidTransform& T_a_b) {
-  const Eigen::Quaterniond rotation = T_a_b.rotation.conjugate();
-  return {-(rotation * T_a_b.position), rotation};
 }
 
 }  // namespace cairn::ros1

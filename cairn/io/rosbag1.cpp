@@ -272,7 +272,7 @@ void BagReader::on_message(const RecordView& record) {
   }
   const auto& [topic, type, md5sum] = connection->second;
   const Time arrival = ros_time(static_cast<std::uint32_t>(*time), static_cast<std::uint32_t>(*time >> 32));
-  log_.add({type, md5sum, topic, arrival, record.data, stream_.record_offset()});
+  log_.add({type, topic, arrival, record.data, stream_.record_offset()}, md5sum);
 }
 
 // --- losses

@@ -2,6 +2,7 @@
 
 #include "cairn/core/time.hpp"
 #include "cairn/io/byte_reader.hpp"
+#include "cairn/io/byte_stream.hpp"
 
 #include <cstdint>
 #include <cstring>
@@ -65,27 +66,24 @@ class RecordStream {
     kDamaged    ///< no record here: an impossible header length, or a header without `op`
   };
 
-  explicit RecordStream(std::istream& input) : input_(input), start_(input.tellg()) {}
+  explicit RecordStream(std::istream& input) : input_(input) {}
 
-  /// Reads `size` bytes (fewer at the end of the stream). Memory grows with what really comes.
-  std::string bytes(std::size_t size);
+  /// Reads `size` bytes (fewer at the end of the stream).
+  std::string bytes(std::size_t size) { return input_.read(size); }
 
   Status next();
   RecordView record() const { return {header_, data_}; }
   std::uint64_t record_offset() const { return record_offset_; }  ///< where the last record began
-  std::uint64_t offset() const { return offset_; }                ///< bytes from the bag's begin
+  std::uint64_t offset() const { return input_.offset(); }        ///< bytes from the bag's begin
   std::uint64_t missing_bytes() const { return missing_bytes_; }  ///< kCutShort: known to be lost
 
-  /// Goes to an offset, if the stream can and is that long. After a failure it stands where it stood.
-  bool seek(std::uint64_t offset);
-  void skip_to_end();
+  bool seek(std::uint64_t offset) { return input_.seek(offset); }  ///< see ByteStream
+  void skip_to_end() { input_.skip_to_end(); }
 
  private:
   bool read_part(std::string& part, std::size_t limit);
 
-  std::istream& input_;
-  std::istream::pos_type start_;
-  std::uint64_t offset_ = 0;
+  ByteStream input_;
   std::uint64_t record_offset_ = 0;
   std::uint64_t missing_bytes_ = 0;
   std::string header_;

@@ -3,11 +3,13 @@
 #include "cairn/core/errors.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <new>
 #include <utility>
 
 #include <bzlib.h>
 #include <zlib.h>
+#include <zstd.h>
 
 namespace cairn {
 namespace {
@@ -116,6 +118,34 @@ class Bunzip2 {
   bz_stream stream_{};
 };
 
+class Unzstd {
+ public:
+  static constexpr const char* kFormat = "Zstandard";
+  static bool starts_member(std::string_view bytes) { return packing_of(bytes) == Packing::kZstd; }
+
+  Unzstd() : context_(ZSTD_createDCtx()) {
+    if (!context_) throw std::bad_alloc();
+  }
+
+  void restart() { ZSTD_DCtx_reset(context_.get(), ZSTD_reset_session_only); }
+
+  Step step(std::string_view& in, Output& out) {
+    ZSTD_inBuffer from{in.data(), in.size(), 0};
+    ZSTD_outBuffer to{out.end(), out.room(), 0};
+    const std::size_t status = ZSTD_decompressStream(context_.get(), &to, &from);
+    out.advance(to.pos);
+    in.remove_prefix(from.pos);
+    if (ZSTD_isError(status) != 0) return Step::kDamaged;
+    return status == 0 ? Step::kMemberEnd : Step::kProgress;
+  }
+
+ private:
+  struct Free {
+    void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }
+  };
+  std::unique_ptr<ZSTD_DCtx, Free> context_;
+};
+
 /// Unpacks all members, each step checked.
 template <typename Unpacker>
 class Unpacking {
@@ -173,6 +203,7 @@ Packing packing_of(std::string_view bytes) {
   if (bytes.starts_with("\x1f\x8b")) return Packing::kGzip;
   if (bytes.size() >= 4 && bytes.starts_with("BZh") && bytes[3] >= '1' && bytes[3] <= '9')
     return Packing::kBzip2;
+  if (bytes.starts_with("\x28\xb5\x2f\xfd")) return Packing::kZstd;
   return Packing::kNone;
 }
 
@@ -182,6 +213,10 @@ std::string unpack_gzip(std::string_view packed, const std::string& name, std::s
 
 std::string unpack_bzip2(std::string_view packed, const std::string& name, std::size_t max_bytes) {
   return Unpacking<Bunzip2>(packed, name, max_bytes).run();
+}
+
+std::string unpack_zstd(std::string_view packed, const std::string& name, std::size_t max_bytes) {
+  return Unpacking<Unzstd>(packed, name, max_bytes).run();
 }
 
 }  // namespace cairn

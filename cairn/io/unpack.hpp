@@ -6,9 +6,9 @@
 
 namespace cairn {
 
-enum class Packing { kNone, kGzip, kBzip2 };
+enum class Packing { kNone, kGzip, kBzip2, kZstd };
 
-/// Told by the first bytes: 1f 8b is gzip, "BZh1".."BZh9" is bzip2.
+/// Told by the first bytes: 1f 8b is gzip, "BZh1".."BZh9" is bzip2, 28 b5 2f fd is Zstandard.
 Packing packing_of(std::string_view bytes);
 
 /// Unpacks a gzip file held in memory: one member or several, one after the other (RFC 1952).
@@ -20,5 +20,8 @@ std::string unpack_gzip(std::string_view packed, const std::string& name, std::s
 
 /// The same for bzip2: one stream or several, one after the other.
 std::string unpack_bzip2(std::string_view packed, const std::string& name, std::size_t max_bytes);
+
+/// The same for Zstandard: one frame or several, one after the other.
+std::string unpack_zstd(std::string_view packed, const std::string& name, std::size_t max_bytes);
 
 }  // namespace cairn

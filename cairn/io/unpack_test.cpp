@@ -2,10 +2,13 @@
 
 #include "cairn/core/errors.hpp"
 
+#include <memory>
+
 #include <bzlib.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <zlib.h>
+#include <zstd.h>
 
 namespace cairn {
 namespace {
@@ -33,6 +36,14 @@ std::string bzip2(std::string plain) {
                                      1, 0, 0),
             BZ_OK);
   packed.resize(size);
+  return packed;
+}
+
+std::string zstd(std::string text) {
+  const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(), ZSTD_freeCCtx);
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);  // as the zstd tool does
+  std::string packed(ZSTD_compressBound(text.size()), '\0');
+  packed.resize(ZSTD_compress2(context.get(), packed.data(), packed.size(), text.data(), text.size()));
   return packed;
 }
 
@@ -100,12 +111,14 @@ TEST_P(Unpack, ABombStopsAtTheLimit) {
 
 INSTANTIATE_TEST_SUITE_P(Formats, Unpack,
                          ::testing::Values(Format{"gzip", [](std::string s) { return gzip(s); }, unpack_gzip},
-                                           Format{"bzip2", bzip2, unpack_bzip2}),
+                                           Format{"bzip2", bzip2, unpack_bzip2},
+                                           Format{"zstd", zstd, unpack_zstd}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(PackingOf, IsToldByTheFirstBytes) {
   EXPECT_EQ(packing_of(gzip("x")), Packing::kGzip);
   EXPECT_EQ(packing_of(bzip2("x")), Packing::kBzip2);
+  EXPECT_EQ(packing_of(zstd("x")), Packing::kZstd);
   EXPECT_EQ(packing_of("BZh0"), Packing::kNone);
   EXPECT_EQ(packing_of("FLASER 180"), Packing::kNone);
   EXPECT_EQ(packing_of(""), Packing::kNone);

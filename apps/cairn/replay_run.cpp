@@ -1,0 +1,79 @@
+#include "apps/cairn/replay_run.hpp"
+
+#include "apps/cairn/run_directory.hpp"
+#include "cairn/core/errors.hpp"
+#include "cairn/io/configuration.hpp"
+#include "cairn/io/map_reader.hpp"
+#include "cairn/maps/checksum.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include <spdlog/fmt/fmt.h>
+
+namespace cairn::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+LocalizerOptions read_options(const fs::path& file, const std::string& configuration) {
+  LocalizerOptions options;
+  Diagnostics diagnostics;
+  std::istringstream input(configuration);
+  read_configuration(
+      input, file.string() + " (configuration)", [&](OptionVisitor& visitor) { options.visit(visitor); },
+      diagnostics);
+  options.validate();
+  return options;
+}
+
+std::shared_ptr<const OccupancyGrid> read_same_map(const std::string& path, std::uint64_t wanted) {
+  Diagnostics diagnostics;
+  auto map = read_map(path, diagnostics);
+  const std::uint64_t found = checksum(*map);
+  if (found == wanted) return map;
+  throw InputError(
+      path,
+      fmt::format("is not the map of the recorded run: its checksum is {:016x}, that of the run's map was "
+                  "{:016x}",
+                  found, wanted),
+      "name the map as it was then with --map");
+}
+
+}  // namespace
+
+RecordedRun read_recorded_run(const fs::path& run, const std::string& map) {
+  RecordedRun result;
+  result.file = fs::is_directory(run) ? find_recording(run) : run;
+  result.recording = read_recording(result.file);
+  const RunHeader& header = result.recording.header;
+  result.options = read_options(result.file, header.configuration);
+  result.map = read_same_map(map.empty() ? header.map_path : map, header.map_checksum);
+  return result;
+}
+
+LocalizeResult run_again(const RecordedRun& run, const LocalizerOptions& options, int threads) {
+  return localize({.log = &run.recording.log,
+                   .map = run.map,
+                   .options = options,
+                   .start = {run.recording.header.T_map_base},
+                   .seed = run.recording.header.seed,
+                   .threads = threads});
+}
+
+std::optional<Parting> first_parting(const Recording& recorded, const std::vector<Estimate>& replayed) {
+  const std::size_t common = std::min(recorded.estimates.size(), replayed.size());
+  for (std::size_t i = 0; i < common; ++i) {
+    const auto difference = exact::first_difference(recorded.estimates[i], replayed[i]);
+    if (difference) return Parting{i, recorded.estimates[i].stamp, *difference};
+  }
+  if (recorded.estimates.size() > common) {
+    return Parting{common, recorded.estimates[common].stamp, {"estimate", "there is one", "there is none"}};
+  }
+  if (replayed.size() > common && recorded.finished) {
+    return Parting{common, replayed[common].stamp, {"estimate", "there is none", "there is one"}};
+  }
+  return std::nullopt;
+}
+
+}  // namespace cairn::app
