@@ -15,22 +15,11 @@ constexpr int kBeams = 60;
 constexpr double kMaxRange = 30.0;
 
 // Walls of two cells around every room, doors of 1 m in the middle of each wall.
-bool is_wall(int column, int row) {
+bool is_wall(int column, int row, int cells) {
   const int x = column % kRoomCells, y = row % kRoomCells;
-  const bool outer = column < 2 || row < 2 || column >= kCells - 2 || row >= kCells - 2;
+  const bool outer = column < 2 || row < 2 || column >= cells - 2 || row >= cells - 2;
   const bool in_door = std::abs(x - kRoomCells / 2) < 10 || std::abs(y - kRoomCells / 2) < 10;
   return outer || ((x < 2 || y < 2) && !in_door);
-}
-
-std::shared_ptr<const OccupancyGrid> make_map() {
-  const GridGeometry geometry{kCells, kCells, kResolution, {}};
-  std::vector<OccupancyGrid::Cell> cells(geometry.size());
-  for (int row = 0; row < kCells; ++row) {
-    for (int column = 0; column < kCells; ++column) {
-      cells[geometry.index(column, row)] = is_wall(column, row) ? 100 : 0;
-    }
-  }
-  return std::make_shared<const OccupancyGrid>(geometry, std::move(cells));
 }
 
 float measure(const OccupancyGrid& map, const Pose2& T_map_beam) {
@@ -42,7 +31,7 @@ float measure(const OccupancyGrid& map, const Pose2& T_map_beam) {
 }
 
 BenchWorld make_world() {
-  BenchWorld world{make_map(), {23.1, 26.4, 0.3}, {}};
+  BenchWorld world{square_map(kCells), {23.1, 26.4, 0.3}, {}};
   LaserScan& scan = world.scan;
   scan.angle_increment_rad = kTwoPi / kBeams;
   scan.angle_min_rad = -0.5 * (kBeams - 1) * scan.angle_increment_rad;
@@ -58,6 +47,16 @@ BenchWorld make_world() {
 const RandomStream kRandom(1, RandomPurpose::kTest, 0);
 
 }  // namespace
+
+std::shared_ptr<const OccupancyGrid> square_map(int side) {
+  const GridGeometry geometry{side, side, kResolution, {}};
+  std::vector<OccupancyGrid::Cell> cells(geometry.size());
+  for (int row = 0; row < side; ++row) {
+    for (int column = 0; column < side; ++column)
+      cells[geometry.index(column, row)] = is_wall(column, row, side) ? 100 : 0;
+  }
+  return std::make_shared<const OccupancyGrid>(geometry, std::move(cells));
+}
 
 const BenchWorld& bench_world() {
   static const BenchWorld world = make_world();

@@ -19,6 +19,9 @@ struct BenchWorld {
 
 const BenchWorld& bench_world();
 
+/// A map of such rooms, `side` cells of 5 cm long and wide.
+std::shared_ptr<const OccupancyGrid> square_map(int side);
+
 /// Particles around the robot: 0.2 m and 0.1 rad standard deviation.
 std::vector<Pose2> tracking_particles(std::size_t count);
 /// Particles anywhere on the map.

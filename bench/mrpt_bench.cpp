@@ -2,13 +2,16 @@
 // particles.
 #include "bench_world.hpp"
 #include "cairn/models/sensor/likelihood_field.hpp"
+#include "registration.hpp"
 
 #include <cmath>
 
-#include <benchmark/benchmark.h>
+#include <mrpt/bayes/CParticleFilter.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/poses/CPosePDFParticles.h>
 
 namespace cairn::bench {
 namespace {
@@ -107,26 +110,62 @@ void weigh(benchmark::State& state, std::vector<Pose2> (*particles)(std::size_t)
                           static_cast<std::int64_t>(bench_world().scan.ranges_m.size()));
   state.counters["correlation"] = agrees;
 }
-BENCHMARK_CAPTURE(weigh, tracking, tracking_particles)
-    ->Name("mrpt/likelihood_field/tracking")
-    ->Arg(2000)
-    ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(weigh, global, global_particles)
-    ->Name("mrpt/likelihood_field/global")
-    ->Arg(10000)
-    ->Unit(benchmark::kMicrosecond);
 
-void sample_motion(benchmark::State& state) {
+// Every beam is simulated and compared.
+void weigh_by_rays(benchmark::State& state) {
+  COccupancyGridMap2D map = mrpt_map(*bench_world().map);
+  map.likelihoodOptions.likelihoodMethod = COccupancyGridMap2D::lmRayTracing;
+  map.likelihoodOptions.rayTracing_decimation = 1;
+  const CObservation2DRangeScan scan = mrpt_scan(bench_world().scan);
+  const auto poses = mrpt_poses(tracking_particles(static_cast<std::size_t>(state.range(0))));
+  for (auto _ : state) {
+    for (const CPose3D& pose : poses) benchmark::DoNotOptimize(map.computeObservationLikelihood(scan, pose));
+  }
+  state.SetItemsProcessed(state.iterations() * state.range(0) *
+                          static_cast<std::int64_t>(bench_world().scan.ranges_m.size()));
+}
+
+struct ForgetfulMap : COccupancyGridMap2D {
+  explicit ForgetfulMap(const COccupancyGridMap2D& map) : COccupancyGridMap2D(map) {}
+  void forget() { m_likelihoodCacheOutDated = true; }
+};
+
+// The likelihoods of all cells, from a cold cache: MRPT works out the distance of a cell when it is first
+// asked.
+void fill_likelihood_grid(benchmark::State& state) {
+  const auto grid = square_map(static_cast<int>(state.range(0)));
+  ForgetfulMap map(mrpt_map(*grid));
+  map.likelihoodOptions.LF_maxCorrsDistance = 0.3f;
+  const GridGeometry& g = grid->geometry();
+  mrpt::maps::CSimplePointsMap centres;
+  centres.reserve(g.size());
+  for (int row = 0; row < g.height; ++row) {
+    for (int column = 0; column < g.width; ++column)
+      centres.insertPointFast(map.idx2x(column), map.idx2y(row));
+  }
+  for (auto _ : state) {
+    map.forget();
+    benchmark::DoNotOptimize(map.computeLikelihoodField_Thrun(&centres));
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(g.size()));
+}
+
+CActionRobotMovement2D odometry_motion() {
   CActionRobotMovement2D::TMotionModelOptions options;
   options.modelSelection = CActionRobotMovement2D::mmGaussian;
   CActionRobotMovement2D motion;
+  motion.computeFromOdometry(CPose2D(0.1, 0.0, 0.02), options);
+  motion.prepareFastDrawSingleSamples();
+  return motion;
+}
+
+void sample_motion(benchmark::State& state) {
   std::vector<CPose2D> states;
   for (const Pose2& pose : tracking_particles(static_cast<std::size_t>(state.range(0)))) {
     states.emplace_back(pose.x, pose.y, pose.theta);
   }
   for (auto _ : state) {
-    motion.computeFromOdometry(CPose2D(0.1, 0.0, 0.02), options);
-    motion.prepareFastDrawSingleSamples();
+    const CActionRobotMovement2D motion = odometry_motion();
     for (CPose2D& pose : states) {
       CPose2D increment;
       motion.fastDrawSingleSample(increment);
@@ -136,7 +175,76 @@ void sample_motion(benchmark::State& state) {
   }
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }
-BENCHMARK(sample_motion)->Name("mrpt/motion_sampling")->Arg(2000)->Unit(benchmark::kMicrosecond);
+
+mrpt::poses::CPosePDFParticles particle_set(std::size_t count) {
+  mrpt::poses::CPosePDFParticles particles(count);
+  const std::vector<Pose2> states = tracking_particles(count);
+  for (std::size_t i = 0; i < count; ++i)
+    particles.m_particles[i].d = mrpt::math::TPose2D(states[i].x, states[i].y, states[i].theta);
+  return particles;
+}
+
+mrpt::bayes::CParticleFilter::TParticleFilterOptions systematic() {
+  mrpt::bayes::CParticleFilter::TParticleFilterOptions options;
+  options.resamplingMethod = mrpt::bayes::CParticleFilter::prSystematic;
+  return options;
+}
+
+void resample(benchmark::State& state) {
+  const auto count = static_cast<std::size_t>(state.range(0));
+  mrpt::poses::CPosePDFParticles particles = particle_set(count);
+  const auto options = systematic();
+  const RandomStream random(1, RandomPurpose::kTest, 1);
+  std::vector<double> log_weights(count);
+  for (std::size_t i = 0; i < count; ++i) log_weights[i] = random.normal4(static_cast<std::uint32_t>(i))[0];
+  for (auto _ : state) {
+    for (std::size_t i = 0; i < count; ++i) particles.m_particles[i].log_w = log_weights[i];
+    particles.performResampling(options);
+    benchmark::DoNotOptimize(particles.m_particles.front().log_w);
+  }
+  state.SetItemsProcessed(state.iterations() * state.range(0));
+}
+
+// Motion, weights, mean, resampling: what MRPT's own localization does in one step.
+void whole_step(benchmark::State& state) {
+  const auto count = static_cast<std::size_t>(state.range(0));
+  COccupancyGridMap2D map = mrpt_map(*bench_world().map);
+  const CObservation2DRangeScan scan = mrpt_scan(bench_world().scan);
+  mrpt::poses::CPosePDFParticles particles = particle_set(count);
+  const auto options = systematic();
+  double direction = 1.0;
+  for (auto _ : state) {
+    CActionRobotMovement2D::TMotionModelOptions noise;
+    noise.modelSelection = CActionRobotMovement2D::mmGaussian;
+    CActionRobotMovement2D motion;
+    motion.computeFromOdometry(CPose2D(0.1 * direction, 0.0, 0.02 * direction), noise);
+    motion.prepareFastDrawSingleSamples();
+    for (auto& particle : particles.m_particles) {
+      CPose2D increment;
+      motion.fastDrawSingleSample(increment);
+      particle.d = (CPose2D(particle.d) + increment).asTPose();
+      // A scan counts as twenty beams, here as there.
+      particle.log_w += map.computeObservationLikelihood(scan, CPose3D(CPose2D(particle.d))) / 3.0;
+    }
+    particles.normalizeWeights();
+    benchmark::DoNotOptimize(particles.getCovarianceAndMean());
+    particles.performResampling(options);
+    direction = -direction;
+  }
+  state.SetItemsProcessed(state.iterations() * state.range(0));
+}
 
 }  // namespace
+
+void register_peer() {
+  of_peer("likelihood_field_tracking", {500, 2000, 10000},
+          [](auto& state) { weigh(state, tracking_particles); });
+  of_peer("likelihood_field_global", {10000}, [](auto& state) { weigh(state, global_particles); });
+  of_peer("beam_model_tracking", {500}, weigh_by_rays);
+  of_peer("distance_field_30cm", {1000, 4000}, fill_likelihood_grid);
+  of_peer("motion_sampling", {2000}, sample_motion);
+  of_peer("resample_kld", {2000}, resample);
+  of_peer("whole_step", {500, 2000, 10000}, whole_step);
+}
+
 }  // namespace cairn::bench

@@ -20,6 +20,7 @@ void read_log(benchmark::State& state, const char* recording, Read read) {
   state.SetItemsProcessed(events);
 }
 
+// The readers have no peer.
 BENCHMARK_CAPTURE(read_log, intel, "radish_raw/intel.clf.bz2", cairn::read_carmen_log)
     ->Name("cairn/read/intel.clf.bz2")
     ->Unit(benchmark::kMillisecond);

@@ -36,15 +36,24 @@ PoseBins::PoseBins(const KldOptions& options)
   cells_per_rad_ = static_cast<double>(heading_bins_) / kTwoPi;
 }
 
+namespace {
+
+// std::floor as an integer, without a call.
+std::int64_t floor_of(double value) {
+  const auto truncated = static_cast<std::int64_t>(value);
+  return truncated - (static_cast<double>(truncated) > value ? 1 : 0);
+}
+
+}  // namespace
+
 std::uint64_t PoseBins::key(const Pose2& pose) const {
   constexpr std::uint64_t kMask = (std::uint64_t{1} << 21) - 1;
-  const auto cell = [](double value) {
-    return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(value)));
-  };
-  const auto turn = static_cast<std::int64_t>(std::floor(pose.theta * cells_per_rad_));
-  const auto heading = static_cast<std::uint64_t>(((turn % heading_bins_) + heading_bins_) % heading_bins_);
-  return ((cell(pose.x * cells_per_m_) & kMask) << 42) | ((cell(pose.y * cells_per_m_) & kMask) << 21) |
-         heading;
+  const auto cell = [](double value) { return static_cast<std::uint64_t>(floor_of(value)) & kMask; };
+  std::int64_t turn = floor_of(pose.theta * cells_per_rad_);
+  if (turn < 0) turn += heading_bins_;  // all that a heading in [-pi, pi) needs
+  if (turn < 0 || turn >= heading_bins_) turn = ((turn % heading_bins_) + heading_bins_) % heading_bins_;
+  return (cell(pose.x * cells_per_m_) << 42) | (cell(pose.y * cells_per_m_) << 21) |
+         static_cast<std::uint64_t>(turn);
 }
 
 }  // namespace cairn
