@@ -2,8 +2,11 @@
 
 #include "cairn/bayes/clustering.hpp"
 #include "cairn/core/angle.hpp"
+#include "cairn/core/batch_math.hpp"
+#include "cairn/core/normal_batch.hpp"
 #include "cairn/core/statistics.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cairn {
@@ -20,7 +23,7 @@ void PoseKernelOptions::visit(OptionVisitor& v) {
 
 bool PoseKernel::fit(const ParticleSet<Pose2>& particles) {
   weights_.resize(particles.size());
-  for (std::size_t i = 0; i < weights_.size(); ++i) weights_[i] = std::exp(particles.log_weights[i]);
+  exp_all(particles.log_weights, 0.0, weights_);
   const bool compact =
       fit_group(particles.states, weights_) || fit_heaviest_cluster(particles.states, weights_);
   if (!compact) sigma_ = {options_.wide_m, options_.wide_m, options_.wide_rad};
@@ -43,10 +46,15 @@ bool PoseKernel::fit_heaviest_cluster(std::span<const Pose2> poses, std::span<do
 }
 
 void PoseKernel::move(std::span<Pose2> states, const RandomStream& random, std::uint16_t draw) const {
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    const auto n = random.normal4(static_cast<std::uint32_t>(i), draw);
-    states[i] = {states[i].x + sigma_.x * n[0], states[i].y + sigma_.y * n[1],
-                 normalize_angle(states[i].theta + sigma_.theta * n[2])};
+  NormalBatch noise;
+  for (std::size_t begin = 0; begin < states.size(); begin += NormalBatch::kCapacity) {
+    const std::size_t count = std::min(NormalBatch::kCapacity, states.size() - begin);
+    noise.fill(random, static_cast<std::uint32_t>(begin), count, draw);
+    for (std::size_t i = 0; i < count; ++i) {
+      Pose2& state = states[begin + i];
+      state = {state.x + sigma_.x * noise.number[0][i], state.y + sigma_.y * noise.number[1][i],
+               normalize_angle(state.theta + sigma_.theta * noise.number[2][i])};
+    }
   }
 }
 

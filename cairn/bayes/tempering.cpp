@@ -1,5 +1,6 @@
 #include "cairn/bayes/tempering.hpp"
 
+#include "cairn/core/batch_math.hpp"
 #include "cairn/core/errors.hpp"
 
 #include <algorithm>
@@ -15,13 +16,9 @@ double tempered_ess(std::span<const double> priors, std::span<const double> like
                     std::vector<double>& scratch) {
   for (std::size_t i = 0; i < scratch.size(); ++i) scratch[i] = priors[i] + exponent * likelihoods[i];
   const double largest = *std::max_element(scratch.begin(), scratch.end());
-  double sum = 0.0, sum_of_squares = 0.0;
-  for (const double value : scratch) {
-    const double w = std::exp(value - largest);
-    sum += w;
-    sum_of_squares += w * w;
-  }
-  return sum * sum / sum_of_squares;
+  exp_all(scratch, -largest, scratch);
+  const double sum = sum_of(scratch);
+  return sum * sum / sum_of_squares(scratch);
 }
 
 }  // namespace

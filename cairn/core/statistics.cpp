@@ -1,6 +1,7 @@
 #include "cairn/core/statistics.hpp"
 
 #include "cairn/core/angle.hpp"
+#include "cairn/core/batch_math.hpp"
 #include "cairn/core/errors.hpp"
 
 #include <algorithm>
@@ -40,15 +41,26 @@ double quantile_approximation(double p) {
   return q * polynomial(a, q * q) / polynomial(b, q * q);
 }
 
+// sum of exp(value + offset)^power, power 1 or 2.
+double sum_of_exp(std::span<const double> values, double offset, double power) {
+  constexpr std::size_t kAtOnce = 512;
+  std::array<double, kAtOnce> exps;
+  double sum = 0.0;
+  for (std::size_t begin = 0; begin < values.size(); begin += kAtOnce) {
+    const auto part = std::span(exps).first(std::min(kAtOnce, values.size() - begin));
+    exp_all(values.subspan(begin, part.size()), offset, part);
+    sum += power == 1.0 ? sum_of(part) : sum_of_squares(part);
+  }
+  return sum;
+}
+
 }  // namespace
 
 double log_sum_exp(std::span<const double> values) {
   if (values.empty()) return -std::numeric_limits<double>::infinity();
   const double largest = *std::max_element(values.begin(), values.end());
   if (std::isinf(largest)) return largest;  // infinity minus infinity would not be a number
-  double sum = 0.0;
-  for (const double value : values) sum += std::exp(value - largest);
-  return largest + std::log(sum);
+  return largest + std::log(sum_of_exp(values, -largest, 1.0));
 }
 
 double normalize_log_weights(std::span<double> log_weights) {
@@ -58,20 +70,28 @@ double normalize_log_weights(std::span<double> log_weights) {
 }
 
 double effective_sample_size(std::span<const double> normalized_log_weights) {
-  double sum_of_squares = 0.0;
-  for (const double w : normalized_log_weights) sum_of_squares += std::exp(2.0 * w);
-  return sum_of_squares > 0.0 ? 1.0 / sum_of_squares : 0.0;
+  const double squares = sum_of_exp(normalized_log_weights, 0.0, 2.0);
+  return squares > 0.0 ? 1.0 / squares : 0.0;
 }
 
 PoseMoments weighted_moments(std::span<const Pose2> poses, std::span<const double> weights) {
   CAIRN_ASSERT(poses.size() == weights.size());
+  constexpr std::size_t kAtOnce = 256;
+  std::array<double, kAtOnce> heading, sine, cosine;
   double total = 0.0, x = 0.0, y = 0.0, c = 0.0, s = 0.0;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    total += weights[i];
-    x += weights[i] * poses[i].x;
-    y += weights[i] * poses[i].y;
-    c += weights[i] * std::cos(poses[i].theta);
-    s += weights[i] * std::sin(poses[i].theta);
+  for (std::size_t begin = 0; begin < poses.size(); begin += kAtOnce) {
+    const std::size_t count = std::min(kAtOnce, poses.size() - begin);
+    for (std::size_t i = 0; i < count; ++i) heading[i] = normalize_angle(poses[begin + i].theta);
+    sine_cosine_all(std::span(heading).first(count), std::span(sine).first(count),
+                    std::span(cosine).first(count));
+    for (std::size_t i = 0; i < count; ++i) {
+      const double w = weights[begin + i];
+      total += w;
+      x += w * poses[begin + i].x;
+      y += w * poses[begin + i].y;
+      c += w * cosine[i];
+      s += w * sine[i];
+    }
   }
   CAIRN_ASSERT(total > 0.0);
   PoseMoments moments;

@@ -1,8 +1,7 @@
 #include "cairn/bayes/resampling/cumulative_weights.hpp"
 
+#include "cairn/core/batch_math.hpp"
 #include "cairn/core/errors.hpp"
-
-#include <cmath>
 
 namespace cairn {
 
@@ -15,9 +14,9 @@ std::vector<double> cumulative_weights(std::span<const double> normalized_log_we
 void cumulative_weights(std::span<const double> normalized_log_weights, std::vector<double>& cumulative) {
   CAIRN_ASSERT(!normalized_log_weights.empty());
   cumulative.resize(normalized_log_weights.size());
+  exp_all(normalized_log_weights, 0.0, cumulative);
   double sum = 0.0;
-  for (std::size_t i = 0; i < cumulative.size(); ++i)
-    cumulative[i] = sum += std::exp(normalized_log_weights[i]);
+  for (double& c : cumulative) c = sum += c;
   for (double& c : cumulative) c /= sum;
 }
 
