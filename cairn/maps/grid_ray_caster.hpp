@@ -7,6 +7,11 @@ namespace cairn {
 /// Which cells end a ray. Off the grid nothing does.
 enum class RayStop { kOccupied, kOccupiedOrUnknown };
 
+constexpr bool is_stop(CellState state, RayStop stop) {
+  return state == CellState::kOccupied ||
+         (stop == RayStop::kOccupiedOrUnknown && state == CellState::kUnknown);
+}
+
 /// Distance (m) from the ray's origin, along its heading, to where it enters the first cell that stops it;
 /// `max_range_m` if it meets none before. 0 if it starts in such a cell. A ray from outside the grid may
 /// enter it. Exact: every cell that the ray touches is visited (Amanatides & Woo, "A Fast Voxel Traversal

@@ -1,7 +1,6 @@
 #include "cairn/models/sensor/likelihood_plane_kernels.hpp"
 
 #include <algorithm>
-#include <bit>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "cairn/models/sensor/likelihood_plane_kernels.cpp"
@@ -10,48 +9,11 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 #include "cairn/core/simd_math-inl.h"
+#include "cairn/maps/cell_places-inl.h"
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
 namespace cairn::HWY_NAMESPACE {
-
-// Turns points of the plane into places of their codes, off the map those of the border.
-//
-// Adding a power of two puts the cell's number into the upper bits of the float's mantissa, the fraction of a
-// cell below: a shift, in place of a rounding and a conversion.
-class Places {
- public:
-  using Floats = hn::ScalableTag<float>;
-  using Words = hn::RebindToUnsigned<Floats>;
-  using F = hn::Vec<Floats>;
-
-  HWY_INLINE explicit Places(const LikelihoodPlaneView& plane)
-      : shift_(23 - static_cast<int>(std::bit_width(std::max(plane.columns, plane.rows)))),
-        bias_(hn::Set(Floats(), static_cast<float>(1 << (23 - shift_)))),
-        last_column_(hn::Set(Floats(), static_cast<float>(plane.columns - 1))),
-        last_row_(hn::Set(Floats(), static_cast<float>(plane.rows - 1))),
-        columns_(hn::Set(Words(), plane.columns)) {
-    const std::uint32_t zero = hn::GetLane(hn::BitCast(Words(), bias_)) >> shift_;
-    bias_places_ = hn::Set(Words(), zero * plane.columns + zero);  // modulo 2^32, as all of it
-  }
-
-  HWY_INLINE hn::Vec<Words> of(F column, F row) const {
-    const F none = hn::Zero(Floats());
-    const F c = hn::Min(hn::Max(column, none), last_column_);
-    const F r = hn::Min(hn::Max(row, none), last_row_);
-    const auto place = hn::Add(hn::Mul(whole(r), columns_), whole(c));
-    return hn::Sub(place, bias_places_);
-  }
-
- private:
-  HWY_INLINE hn::Vec<Words> whole(F cells) const {
-    return hn::ShiftRightSame(hn::BitCast(Words(), hn::Add(cells, bias_)), shift_);
-  }
-
-  int shift_;
-  F bias_, last_column_, last_row_;
-  hn::Vec<Words> columns_, bias_places_;
-};
 
 constexpr std::size_t kBeamsAtOnce = 256;
 
@@ -107,7 +69,7 @@ void add_beams(const Places& places, const Code* codes, const BeamsView& beams, 
 
 template <class Code>
 void add_all(const LikelihoodPlaneView& plane, const Code* codes, const BeamsView& beams, PoseBlock& poses) {
-  const Places places(plane);
+  const Places places(plane.columns, plane.rows);
   std::fill_n(poses.sums.begin(), poses.count, 0u);
   for (std::size_t begin = 0; begin < beams.count; begin += kBeamsAtOnce) {
     const std::size_t count = std::min(kBeamsAtOnce, beams.count - begin);

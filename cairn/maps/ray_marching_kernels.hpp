@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace cairn {
+
+// The inner loop of RayMarcher::cast, for the best instructions of the machine (see simd.hpp).
+
+/// How far a ray may go on from anywhere in a cell, in quarters of a cell; 0 in cells that end it and in the
+/// border around the grid. Three bytes more than there are cells may be read.
+struct StepPlaneView {
+  const std::uint8_t* steps;
+  std::uint32_t columns;  ///< with the border
+  std::uint32_t rows;
+};
+inline constexpr float kCellsPerStep = 0.25f;
+
+/// Poses in cells of the plane, within the grid.
+struct RayOrigins {
+  static constexpr std::size_t kCapacity = 64;
+  alignas(64) std::array<float, kCapacity> x;
+  alignas(64) std::array<float, kCapacity> y;
+  alignas(64) std::array<float, kCapacity> cosine;
+  alignas(64) std::array<float, kCapacity> sine;
+};
+
+/// Casts one bearing from all origins. ranges[i], in cells: where the ray enters the cell that ends it, and
+/// `max_range` if it leaves the grid or gets so far.
+void march(const StepPlaneView& plane, const RayOrigins& origins, float bearing_cosine, float bearing_sine,
+           float max_range, std::array<float, RayOrigins::kCapacity>& ranges);
+
+}  // namespace cairn
