@@ -1,6 +1,7 @@
 #include "bench_world.hpp"
 #include "cairn/bayes/particle_filter.hpp"
 #include "cairn/bayes/pose_kernel.hpp"
+#include "cairn/core/batch_math.hpp"
 #include "cairn/localization/recipes.hpp"
 #include "cairn/models/motion/differential_drive.hpp"
 #include "cairn/models/sensor/likelihood_field.hpp"
@@ -62,7 +63,7 @@ void step(benchmark::State& state, const ParticleFilterOptions& options,
   Pose2 control = kControl;
   for (auto _ : state) {
     filter.update(control, model->bind(bench_world().scan));
-    for (std::size_t i = 0; i < count; ++i) weights[i] = std::exp(filter.particles().log_weights[i]);
+    exp_all(filter.particles().log_weights, 0.0, weights);
     benchmark::DoNotOptimize(weighted_moments(filter.particles().states, weights));
     control = inverse(control);
   }

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""Prints what a run of cairn_bench measured: times, and how much faster Cairn is than its peer.
+"""Turns a run of cairn_bench into rows: how long each kernel takes, and how much faster it is than its peer.
 
-usage: bench/summarize.py RESULT.json
+usage: bench/summarize.py RESULT.json ROWS.json
 
-Repetition k of `cairn/NAME` is paired with repetition k of `mrpt/NAME`; the ratios' median, 10th and 90th percentile
-are printed. Judge by the 10th percentile: single times of a shared machine can be off by a factor of two.
+RESULT.json is Google Benchmark's. Repetition k of `cairn/KERNEL/PATH/N` is paired with repetition k of `mrpt/KERNEL/N`;
+the ratios' median, 10th and 90th percentile go into ROWS.json: a list of {kernel, n, peer, path, ratio_p10, ratio_median,
+ratio_p90, ns, ns_per_item} under "rows", beside the processor. Judge by the 10th percentile: single times of a shared
+machine can be off by a factor of two. CPU time is measured, not time on the wall.
 """
 
 import json
@@ -22,10 +24,6 @@ def percentile(values, share):
     return ordered[below] + (place - below) * (ordered[above] - ordered[below])
 
 
-def spread(values):
-    return percentile(values, 0.5), percentile(values, 0.1), percentile(values, 0.9)
-
-
 def cpu():
     """Model name and the vector extensions that the processor offers."""
     info = Path("/proc/cpuinfo").read_text(encoding="utf-8")
@@ -36,9 +34,9 @@ def cpu():
 
 
 def repetitions(results):
-    """name -> list of (repetition, nanoseconds, nanoseconds per item or None)."""
+    """name -> {repetition: (nanoseconds, nanoseconds per item or None)}"""
     to_ns = {"ns": 1.0, "us": 1e3, "ms": 1e6, "s": 1e9}
-    runs = defaultdict(list)
+    runs = defaultdict(dict)
     for run in results["benchmarks"]:
         if run["run_type"] != "iteration":
             continue
@@ -46,42 +44,48 @@ def repetitions(results):
             print(f"{run['name']}: skipped, {run['error_message']}")
             continue
         per_item = 1e9 / run["items_per_second"] if run.get("items_per_second") else None
-        runs[run["name"]].append((run["repetition_index"], run["cpu_time"] * to_ns[run["time_unit"]], per_item))
+        runs[run["name"]][run["repetition_index"]] = (run["cpu_time"] * to_ns[run["time_unit"]], per_item)
     return runs
 
 
-def print_times(runs):
-    print(f"{'benchmark':<45} {'median':>12} {'p10':>12} {'p90':>12} {'per item':>12}")
-    for name, measured in sorted(runs.items()):
-        median, low, high = spread([ns for _, ns, _ in measured])
-        items = [per_item for _, _, per_item in measured if per_item]
-        per_item = f"{percentile(items, 0.5):.2f} ns" if items else ""
-        print(f"{name:<45} {median / 1e3:>9.1f} us {low / 1e3:>9.1f} us {high / 1e3:>9.1f} us {per_item:>12}")
+def row_of(name, runs):
+    """The row of one of our benchmarks; without ratios where the peer has no counterpart."""
+    parts = name.split("/")
+    if parts[0] != "cairn" or len(parts) != 4 or not parts[3].isdigit():
+        return None
+    _, kernel, path, n = parts
+    ours, theirs = runs[name], runs.get(f"mrpt/{kernel}/{n}", {})
+    ratios = [theirs[k][0] / ours[k][0] for k in ours if k in theirs]
+    items = [per_item for _, per_item in ours.values() if per_item]
+    row = {"kernel": kernel, "n": int(n), "peer": "mrpt" if ratios else None, "path": path}
+    for key, share in (("ratio_p10", 0.1), ("ratio_median", 0.5), ("ratio_p90", 0.9)):
+        row[key] = round(percentile(ratios, share), 2) if ratios else None
+    row["ns"] = round(percentile([ns for ns, _ in ours.values()], 0.5), 1)
+    row["ns_per_item"] = round(percentile(items, 0.5), 3) if items else None
+    return row
 
 
-def print_ratios(runs, peer="mrpt"):
-    pairs = [(name.removeprefix("cairn/"), f"{peer}/" + name.removeprefix("cairn/")) for name in sorted(runs)]
-    pairs = [(what, other) for what, other in pairs if other in runs and f"cairn/{what}" in runs]
-    if not pairs:
-        print(f"no ratios: nothing of {peer} was measured")
-        return
-    print(f"\n{f'time of {peer} / time of cairn':<45} {'median':>8} {'p10':>8} {'p90':>8}")
-    for what, other in pairs:
-        ours = {k: ns for k, ns, _ in runs[f"cairn/{what}"]}
-        ratios = [ns / ours[k] for k, ns, _ in runs[other] if k in ours]
-        median, low, high = spread(ratios)
-        print(f"{what:<45} {median:>8.2f} {low:>8.2f} {high:>8.2f}   ({len(ratios)} pairs)")
+def print_rows(rows):
+    print(f"{'kernel':<28} {'n':>6} {'path':>7} {'ns/item':>9} | {'p10':>7} {'median':>7} {'p90':>7}  times MRPT's speed")
+    for row in rows:
+        ratios = [row[key] for key in ("ratio_p10", "ratio_median", "ratio_p90")]
+        shown = " ".join(f"{r:>7.1f}" if r else f"{'-':>7}" for r in ratios)
+        print(f"{row['kernel']:<28} {row['n']:>6} {row['path']:>7} {row['ns_per_item'] or 0:>9.2f} | {shown}")
 
 
 def main():
-    if len(sys.argv) != 2:
+    if len(sys.argv) != 3:
         sys.exit(__doc__)
     results = json.loads(Path(sys.argv[1]).read_text(encoding="utf-8"))
     name, flags = cpu()
-    print(f"{name}; {' '.join(flags)}\n")
+    paths = results["context"].get("cairn_simd_paths", "")
+    print(f"{name}; {' '.join(flags)}\npaths: {paths}\n")
     runs = repetitions(results)
-    print_times(runs)
-    print_ratios(runs)
+    rows = [row for row in (row_of(name, runs) for name in runs) if row]
+    print_rows(rows)
+    count = max((len(found) for found in runs.values()), default=0)
+    document = {"cpu": name, "flags": flags, "paths": paths, "repetitions": count, "rows": rows}
+    Path(sys.argv[2]).write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -54,6 +54,27 @@ double sum_of_exp(std::span<const double> values, double offset, double power) {
   return sum;
 }
 
+// Sum of the weighted squares of the deviations.
+Eigen::Matrix3d covariance_around(const Pose2& mean, std::span<const Pose2> poses,
+                                  std::span<const double> weights) {
+  double xx = 0.0, xy = 0.0, xt = 0.0, yy = 0.0, yt = 0.0, tt = 0.0;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const double dx = poses[i].x - mean.x, dy = poses[i].y - mean.y;
+    double dt = poses[i].theta - mean.theta;
+    if (!(dt >= -kPi && dt < kPi)) dt = normalize_angle(dt);
+    const double wx = weights[i] * dx, wy = weights[i] * dy;
+    xx += wx * dx;
+    xy += wx * dy;
+    xt += wx * dt;
+    yy += wy * dy;
+    yt += wy * dt;
+    tt += weights[i] * dt * dt;
+  }
+  Eigen::Matrix3d sum;
+  sum << xx, xy, xt, xy, yy, yt, xt, yt, tt;
+  return sum;
+}
+
 }  // namespace
 
 double log_sum_exp(std::span<const double> values) {
@@ -96,11 +117,7 @@ PoseMoments weighted_moments(std::span<const Pose2> poses, std::span<const doubl
   CAIRN_ASSERT(total > 0.0);
   PoseMoments moments;
   moments.mean = {x / total, y / total, normalize_angle(std::atan2(s, c))};
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Eigen::Vector3d deviation(poses[i].x - moments.mean.x, poses[i].y - moments.mean.y,
-                                    angle_difference(poses[i].theta, moments.mean.theta));
-    moments.covariance += weights[i] / total * deviation * deviation.transpose();
-  }
+  moments.covariance = covariance_around(moments.mean, poses, weights) / total;
   return moments;
 }
 

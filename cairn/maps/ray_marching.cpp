@@ -15,8 +15,9 @@ namespace {
 constexpr double kStepsPerCell = 1.0 / kCellsPerStep;
 // Longer steps than 63 cells do not fit a byte.
 constexpr int kLongestStep_cells = 63;
-// Beside a stop a ray goes on by this much; a corner that it crosses on less may be missed.
-constexpr std::uint8_t kShortestStep = 2;
+// Every step goes on by so much more, in cells, and by more than a float resolves in a large grid.
+constexpr double kBeyond_cells = 1e-3;
+constexpr double kBeyondPerSide = 0x1p-22;
 constexpr std::uint32_t kLongestSide = 1 << 20;
 
 // Every cell that ends a ray, and all of its neighbours: the distance to the next of these cells is how far a
@@ -73,7 +74,7 @@ RayMarcher::RayMarcher(const OccupancyGrid& grid, double max_range_m, RayStop st
     for (int column = 0; column < g.width; ++column) {
       const std::size_t i = g.index(column, row);
       const auto safe = static_cast<std::uint8_t>(kStepsPerCell * std::sqrt(squared[i]));
-      if (!is_stop(grid.state(i), stop)) field.step(column, row) = std::max(safe, kShortestStep);
+      if (!is_stop(grid.state(i), stop)) field.step(column, row) = static_cast<std::uint8_t>(safe + 1);
     }
   }
   field_ = std::make_unique<const Field>(std::move(field));
@@ -109,7 +110,9 @@ void RayMarcher::cast_block(std::span<const Pose2> T_map_sensor, std::span<const
     origins.sine[i] = static_cast<float>(std::sin(T_grid_sensor.theta));
   }
   std::array<float, RayOrigins::kCapacity> cells;
-  const StepPlaneView plane{field.steps.data(), field.columns, field.rows};
+  const double side = std::max(field.columns, field.rows);
+  const StepPlaneView plane{field.steps.data(), field.columns, field.rows,
+                            static_cast<float>(std::max(kBeyond_cells, kBeyondPerSide * side))};
   const auto max_range = static_cast<float>(max_range_m_), metres = static_cast<float>(cell_m);
   for (std::size_t k = 0; k < bearings_rad.size(); ++k) {
     march(plane, origins, static_cast<float>(std::cos(bearings_rad[k])),

@@ -11,10 +11,9 @@ namespace cairn {
 /// Casts many rays in one occupancy grid: the same bearings from many poses, as a beam model needs them.
 ///
 /// Marches with steps as long as the distance to the next wall allows ("sphere tracing": Hart 1996), many
-/// rays at once on all lanes of the processor; where it ends, the point of entry into the cell is exact.
-/// Beside walls the step is half a cell: a corner that a ray crosses on less may be missed (one ray in a
-/// hundred; mean error below half of Bresenham's). Every path of simd.hpp gives the same bits. Memory: 1 byte
-/// a cell.
+/// rays at once on all lanes of the processor; beside walls from cell to cell. A corner that a ray crosses on
+/// less than a thousandth of a cell may be missed; else the range is exact in single precision. Every path of
+/// simd.hpp gives the same bits. Memory: 1 byte a cell.
 class RayMarcher {
  public:
   /// @param max_range_m what a ray returns that meets nothing before
@@ -26,7 +25,7 @@ class RayMarcher {
 
   double max_range_m() const { return max_range_m_; }
 
-  /// Ranges (m) as cast_ray gives them but for missed corners, for every pose and every bearing.
+  /// Ranges (m) as cast_ray gives them, for every pose and every bearing.
   /// @param T_map_sensor the poses; one that is not finite gets `max_range_m` for every bearing
   /// @param bearings_rad directions of the rays in the sensor's frame
   /// @param ranges_m ranges of pose i are [i * bearings, (i + 1) * bearings)

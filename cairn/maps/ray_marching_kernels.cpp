@@ -16,7 +16,7 @@ using F = Places::F;
 
 // A vector of rays on their way.
 struct Rays {
-  F x, y, dx, dy, length;
+  F x, y, dx, dy, per_dx, per_dy, length;
 
   HWY_INLINE F column() const { return hn::Add(x, hn::Mul(length, dx)); }
   HWY_INLINE F row() const { return hn::Add(y, hn::Mul(length, dy)); }
@@ -32,67 +32,55 @@ HWY_INLINE F away_from_zero(F direction) {
 HWY_INLINE Rays start(const RayOrigins& origins, std::size_t i, float cosine, float sine) {
   const Places::Floats d;
   const F c = hn::Load(d, &origins.cosine[i]), s = hn::Load(d, &origins.sine[i]);
-  const F bc = hn::Set(d, cosine), bs = hn::Set(d, sine);
-  return {hn::Load(d, &origins.x[i]), hn::Load(d, &origins.y[i]),
-          away_from_zero(hn::Sub(hn::Mul(c, bc), hn::Mul(s, bs))),
-          away_from_zero(hn::Add(hn::Mul(s, bc), hn::Mul(c, bs))), hn::Zero(d)};
+  const F bc = hn::Set(d, cosine), bs = hn::Set(d, sine), one = hn::Set(d, 1.0f);
+  const F dx = away_from_zero(hn::Sub(hn::Mul(c, bc), hn::Mul(s, bs)));
+  const F dy = away_from_zero(hn::Add(hn::Mul(s, bc), hn::Mul(c, bs)));
+  return {hn::Load(d, &origins.x[i]), hn::Load(d, &origins.y[i]), dx,         dy,
+          hn::Div(one, dx),           hn::Div(one, dy),           hn::Zero(d)};
 }
 
-HWY_INLINE F steps_at(const Places& places, const std::uint8_t* steps, F column, F row) {
-  const hn::RebindToSigned<Places::Floats> di;
-  const auto place = hn::BitCast(di, places.of(column, row));
-  const auto around = hn::GatherOffset(di, reinterpret_cast<const std::int32_t*>(steps), place);
-  return hn::ConvertTo(Places::Floats(), hn::And(around, hn::Set(di, 0xff)));
-}
-
-// One step of every ray; those at their end stay. True if all are.
-HWY_INLINE bool advance(const Places& places, const std::uint8_t* steps, F max_range, Rays& rays) {
+// The length at which a ray that comes from `origin` crosses a side of cell `cell`, along one axis: the far
+// side if `far` and the near side if not.
+HWY_INLINE F crossing(Places::W cell, F origin, F direction, F per_direction, bool far) {
   const Places::Floats d;
-  const F before = rays.length;
-  const F step = hn::Mul(steps_at(places, steps, rays.column(), rays.row()), hn::Set(d, kCellsPerStep));
-  rays.length = hn::Min(hn::Add(before, step), max_range);
+  const hn::RebindToSigned<Places::Floats> di;
+  const auto upwards = hn::Gt(direction, hn::Zero(d));
+  const F one = hn::Set(d, 1.0f);
+  const F side = far ? hn::IfThenElseZero(upwards, one) : hn::IfThenZeroElse(upwards, one);
+  return hn::Mul(hn::Sub(hn::Add(hn::ConvertTo(d, hn::BitCast(di, cell)), side), origin), per_direction);
+}
+
+// One step of every ray, to where it leaves its cell at least; those at their end stay. True if all are.
+HWY_INLINE bool advance(const Places& places, const StepPlaneView& plane, F max_range, Rays& rays) {
+  const Places::Floats d;
+  const hn::RebindToSigned<Places::Floats> di;
+  const F column = rays.column(), row = rays.row(), before = rays.length;
+  const auto place = hn::BitCast(di, places.of(column, row));
+  const auto around = hn::GatherOffset(di, reinterpret_cast<const std::int32_t*>(plane.steps), place);
+  const auto code = hn::And(around, hn::Set(di, 0xff));
+  const F safe = hn::Mul(hn::Sub(hn::ConvertTo(d, code), hn::Set(d, 1.0f)), hn::Set(d, kCellsPerStep));
+  const F exit = hn::Min(crossing(places.column_of(column), rays.x, rays.dx, rays.per_dx, true),
+                         crossing(places.row_of(row), rays.y, rays.dy, rays.per_dy, true));
+  const F next =
+      hn::Add(hn::Max(hn::Add(before, hn::Max(safe, hn::Zero(d))), exit), hn::Set(d, plane.beyond));
+  const auto ended = hn::RebindMask(d, hn::Eq(code, hn::Zero(di)));
+  rays.length = hn::Min(hn::IfThenElse(ended, before, next), max_range);
   return hn::AllTrue(d, hn::Eq(rays.length, before));
 }
 
-// The length at which each ray enters the cell that it is in.
-HWY_INLINE F entry(const Places& places, const Rays& rays) {
-  const Places::Floats d;
-  const hn::RebindToSigned<Places::Floats> di;
-  const auto edge = [&](Places::W cell, F direction) {
-    const F near_side = hn::ConvertTo(d, hn::BitCast(di, cell));
-    return hn::Add(near_side, hn::IfThenElseZero(hn::Lt(direction, hn::Zero(d)), hn::Set(d, 1.0f)));
-  };
-  const F along_x = hn::Div(hn::Sub(edge(places.column_of(rays.column()), rays.dx), rays.x), rays.dx);
-  const F along_y = hn::Div(hn::Sub(edge(places.row_of(rays.row()), rays.dy), rays.y), rays.dy);
-  return hn::Max(hn::Max(along_x, along_y), hn::Zero(d));
-}
-
-// True where the ray is in the border or has gone as far as it may.
-HWY_INLINE auto met_nothing(const Places& places, const StepPlaneView& plane, F max_range, const Rays& rays) {
+// The length at which each ray entered the cell where it ended; `max_range` if that is the border.
+HWY_INLINE F length_to_wall(const Places& places, const StepPlaneView& plane, F max_range, const Rays& rays) {
   const Places::Floats d;
   const Places::Words dw;
   const auto column = places.column_of(rays.column()), row = places.row_of(rays.row());
+  const F entry = hn::Max(crossing(column, rays.x, rays.dx, rays.per_dx, false),
+                          crossing(row, rays.y, rays.dy, rays.per_dy, false));
+  const F length = hn::Min(hn::Max(entry, hn::Zero(d)), rays.length);
   const auto none = hn::Zero(dw);
   const auto outside = hn::Or(
       hn::Or(hn::Eq(column, none), hn::Eq(row, none)),
       hn::Or(hn::Eq(column, hn::Set(dw, plane.columns - 1)), hn::Eq(row, hn::Set(dw, plane.rows - 1))));
-  return hn::Or(hn::RebindMask(d, outside), hn::Ge(rays.length, max_range));
-}
-
-// Where each ray entered the walls in which it ended. The last step may have led through the corner of one
-// cell of a wall into the next: then the cell before is the one.
-HWY_INLINE F length_to_wall(const Places& places, const StepPlaneView& plane, F max_range, Rays rays) {
-  constexpr int kMostCellsInAStep = 2;
-  const Places::Floats d;
-  const auto unmet = met_nothing(places, plane, max_range, rays);
-  rays.length = hn::Min(entry(places, rays), rays.length);
-  F length = rays.length;
-  for (int i = 0; i < kMostCellsInAStep; ++i) {
-    rays.length = hn::Max(hn::Sub(length, hn::Set(d, 0.01f)), hn::Zero(d));
-    const F step = steps_at(places, plane.steps, rays.column(), rays.row());
-    const auto in_wall = hn::Eq(step, hn::Zero(d));
-    length = hn::IfThenElse(in_wall, hn::Min(entry(places, rays), length), length);
-  }
+  const auto unmet = hn::Or(hn::RebindMask(d, outside), hn::Ge(rays.length, max_range));
   return hn::IfThenElse(unmet, max_range, length);
 }
 
@@ -109,7 +97,7 @@ void march(const StepPlaneView& plane, const RayOrigins& origins, float cosine, 
     bool ended[4];
     do {
       HWY_UNROLL(4)
-      for (std::size_t k = 0; k < 4; ++k) ended[k] = advance(places, plane.steps, farthest, rays[k]);
+      for (std::size_t k = 0; k < 4; ++k) ended[k] = advance(places, plane, farthest, rays[k]);
     } while (!(ended[0] && ended[1] && ended[2] && ended[3]));
     for (std::size_t k = 0; k < 4; ++k)
       hn::StoreU(length_to_wall(places, plane, farthest, rays[k]), d, &ranges[i + k * kLanes]);

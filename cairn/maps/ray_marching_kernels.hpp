@@ -14,6 +14,7 @@ struct StepPlaneView {
   const std::uint8_t* steps;
   std::uint32_t columns;  ///< with the border
   std::uint32_t rows;
+  float beyond;  ///< every step goes on by this much, in cells, so that rounding keeps no ray in its cell
 };
 inline constexpr float kCellsPerStep = 0.25f;
 
