@@ -53,9 +53,10 @@ TEST(KalmanFilter, AgreesWithLeastSquaresOverTheWholeHistory) {
     filter.predict(F, u, Q);
     ASSERT_TRUE(filter.correct<Eigen::Dynamic>(z, H, R));
     Eigen::MatrixXd step = Eigen::MatrixXd::Zero(2, unknowns), look = Eigen::MatrixXd::Zero(1, unknowns);
-    step.block(0, 2 * k, 2, 2) = -F;
-    step.block(0, 2 * k + 2, 2, 2) = Eigen::MatrixXd::Identity(2, 2);
-    look.block(0, 2 * k + 2, 1, 2) = H;
+    const Eigen::Index before = 2 * Eigen::Index{k}, after = before + 2;
+    step.block(0, before, 2, 2) = -F;
+    step.block(0, after, 2, 2) = Eigen::MatrixXd::Identity(2, 2);
+    look.block(0, after, 1, 2) = H;
     information += step.transpose() * Q.inverse() * step + look.transpose() * R.inverse() * look;
     vector += step.transpose() * Q.inverse() * u + look.transpose() * R.inverse() * z;
   }

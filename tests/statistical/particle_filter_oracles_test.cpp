@@ -123,6 +123,7 @@ TEST_P(AgainstKalman, MeanAndCovariance) {
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) runs.push_back(run(seed));
   const auto values = [&](auto number) {
     std::vector<double> v;
+    v.reserve(runs.size());
     for (const Moments& m : runs) v.push_back(number(m));
     return v;
   };
@@ -197,6 +198,7 @@ Summary summary_of(const std::vector<double>& angles, const std::vector<double>&
 
 Summary by_grid(int cells) {
   std::vector<door::Opening> states;
+  states.reserve(static_cast<std::size_t>(cells));
   for (int i = 0; i < cells; ++i) states.push_back({(i + 0.5) * door::kWidest_rad / cells});
   DiscreteFilter<door::Opening> filter(states);
   const Eigen::MatrixXd transition = pushed(cells);
