@@ -1,0 +1,66 @@
+#include "cairn/bayes/resampling/two_stage.hpp"
+
+#include "cairn/bayes/resampling/systematic.hpp"
+#include "cairn/core/errors.hpp"
+
+#include <cmath>
+
+namespace cairn {
+
+bool ClusterWatch::fit(const ParticleSet<Pose2>& particles) {
+  std::vector<double> weights(particles.size());
+  for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = std::exp(particles.log_weights[i]);
+  PoseHypotheses hypotheses = find_hypotheses(particles.states, weights, options_);
+  table_->label = std::move(hypotheses.label);
+  table_->clusters = hypotheses.found.size();
+  table_->particles = particles.size();
+  const bool compact = moves_->fit(particles);
+  return compact && table_->clusters == 1;
+}
+
+void ClusterWatch::save(PartMemory& memory) const {
+  memory.put(static_cast<double>(table_->clusters));
+  memory.put(static_cast<double>(table_->particles));
+  memory.put(static_cast<double>(table_->label.size()));
+  for (const int label : table_->label) memory.put(label);
+  moves_->save(memory);
+}
+
+void ClusterWatch::load(PartMemory::Reader& memory) {
+  table_->clusters = static_cast<std::size_t>(memory.take());
+  table_->particles = static_cast<std::size_t>(memory.take());
+  table_->label.resize(static_cast<std::size_t>(memory.take()));
+  for (int& label : table_->label) label = static_cast<int>(memory.take());
+  moves_->load(memory);
+}
+
+// The members of a cluster and their weights, summed up to 1.
+void TwoStage::select(std::span<const double> cumulative, int cluster) {
+  members_.clear();
+  member_cumulative_.clear();
+  double sum = 0.0;
+  for (std::size_t i = 0; i < cumulative.size(); ++i) {
+    if (table_->label[i] != cluster) continue;
+    const double weight = cumulative[i] - (i == 0 ? 0.0 : cumulative[i - 1]);
+    members_.push_back(static_cast<std::uint32_t>(i));
+    member_cumulative_.push_back(sum += weight);
+  }
+  for (double& c : member_cumulative_) c /= sum;
+  member_cumulative_.back() = 1.0;
+}
+
+void TwoStage::draw(std::span<const double> cumulative, std::size_t count, const DrawingNumbers& numbers,
+                    std::vector<std::uint32_t>& ancestors) {
+  CAIRN_ASSERT(table_->label.size() == cumulative.size());
+  const std::size_t clusters = table_->clusters;
+  for (std::size_t cluster = 0; cluster < clusters; ++cluster) {
+    const std::size_t share = count * (cluster + 1) / clusters - count * cluster / clusters;
+    if (share == 0) continue;
+    select(cumulative, static_cast<int>(cluster));
+    drawn_.clear();
+    draw_systematic(member_cumulative_, share, numbers.single(), drawn_);
+    for (const std::uint32_t member : drawn_) ancestors.push_back(members_[member]);
+  }
+}
+
+}  // namespace cairn
