@@ -49,6 +49,7 @@ struct ParticleFilterCheckpoint {
   PartMemory parts;
   std::uint64_t step = 0;
   double ess = 0.0;
+  double ess_of_generation = 0.0;
   double share_entered = 1.0;
   bool compact = false;
   bool corrected = false;
@@ -159,6 +160,7 @@ class ParticleFilter {
     checkpoint.particles = particles_;
     checkpoint.step = step_;
     checkpoint.ess = ess_;
+    checkpoint.ess_of_generation = ess_of_generation_;
     checkpoint.share_entered = share_entered_;
     checkpoint.compact = compact_;
     checkpoint.corrected = corrected_;
@@ -179,6 +181,7 @@ class ParticleFilter {
     particles_ = checkpoint.particles;
     step_ = checkpoint.step;
     ess_ = checkpoint.ess;
+    ess_of_generation_ = checkpoint.ess_of_generation;
     share_entered_ = checkpoint.share_entered;
     compact_ = checkpoint.compact;
     corrected_ = checkpoint.corrected;
@@ -265,7 +268,7 @@ class ParticleFilter {
 
   // Multiplies the weights by the likelihood to the power of at most `share`; returns the power.
   double weigh(double share) {
-    const double min_ess = options_.min_ess_share * static_cast<double>(particles_.size());
+    const double min_ess = options_.min_ess_share * ess_of_generation_;
     const double power =
         tempering_exponent(particles_.log_weights, log_likelihoods_, min_ess, share, cumulative_);
     for (std::size_t i = 0; i < particles_.size(); ++i)
@@ -317,12 +320,17 @@ class ParticleFilter {
   void take_next_generation() {
     std::swap(particles_.states, next_);
     set_uniform_weights();
+    if (!parts_.resampling->weigh_drawn(particles_.log_weights)) return;
+    normalize_log_weights(particles_.log_weights);
+    ess_ = effective_sample_size(particles_.log_weights);
+    ess_of_generation_ = ess_;
   }
 
   void set_uniform_weights() {
     const auto n = static_cast<double>(particles_.size());
     particles_.log_weights.assign(particles_.size(), -std::log(n));
     ess_ = n;
+    ess_of_generation_ = n;
   }
 
   // A reference fits into a std::function without allocating; a lambda of many captures does not.
@@ -353,6 +361,7 @@ class ParticleFilter {
   std::vector<double> log_likelihoods_;
   std::uint64_t step_ = 0;
   double ess_ = 0.0;
+  double ess_of_generation_ = 0.0;  ///< when it was drawn: N, unless the resampling gave weights
   double share_entered_ = 1.0;
   double log_mean_likelihood_ = 0.0;  ///< of the measurement in correct()
   bool compact_ = false;

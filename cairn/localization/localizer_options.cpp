@@ -94,9 +94,21 @@ void FilterOptions::visit(OptionVisitor& v) {
            min_ess_share, {0.0, 0.9});
   v.section({"kernel", "small moves of the particles between the portions"},
             [this](OptionVisitor& inner) { kernel.visit(inner); });
+  v.section({"clusters", "recipes csrl and ckld_srl: groups of particles that are kept apart"},
+            [this](OptionVisitor& inner) { clusters.visit(inner); });
+  v.number({"cluster_memory",
+            "recipe ckld_mcl: share of a group's log-weight that outlives a measurement; 1: exact Bayes"},
+           cluster_memory, {0.0, 1.0});
+  v.section({"resetting", "recipes srl and csrl: new particles when the measurements do not fit"},
+            [this](OptionVisitor& inner) { resetting.visit(inner); });
+  v.section({"augmented", "recipe amcl: new particles when the measurements fit worse than usual"},
+            [this](OptionVisitor& inner) { augmented.visit(inner); });
+  v.number({"source_per_m2", "poses that new particles are chosen from, per square metre of free space"},
+           source_per_m2, {0.01, 1e5});
 }
 
 void FilterOptions::validate() const {
+  augmented.validate();
   if (min_particles > max_particles) {
     throw ConfigurationError("filter.min_particles", "is larger than filter.max_particles",
                              "lower it or raise max_particles");
@@ -143,8 +155,11 @@ void LocalizerOptions::visit(OptionVisitor& v) {
   const auto section = [&v](const std::string& name, const std::string& documentation, auto& options) {
     v.section({name, documentation}, [&options](OptionVisitor& inner) { options.visit(inner); });
   };
-  v.choice({"recipe", "composition of the filter: mcl (fixed number of particles) or kld_mcl (adaptive)"},
-           recipe, {"mcl", "kld_mcl"});
+  v.choice(
+      {"recipe",
+       "composition of the filter: mcl (fixed number of particles), kld_mcl (adaptive), amcl (and recovers); "
+       "srl, kld_srl (sensor resetting); csrl, ckld_srl, ckld_mcl (and keep hypotheses apart)"},
+      recipe, {"mcl", "kld_mcl", "amcl", "srl", "kld_srl", "csrl", "ckld_srl", "ckld_mcl"});
   v.text({"odometry_stream",
           "name of the odometry in the log; empty: the first odometry stream; none: do without"},
          odometry_stream);

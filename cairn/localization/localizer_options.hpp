@@ -1,5 +1,7 @@
 #pragma once
 
+#include "cairn/bayes/hypotheses.hpp"
+#include "cairn/bayes/injections/injections.hpp"
 #include "cairn/bayes/kld.hpp"
 #include "cairn/bayes/pose_kernel.hpp"
 #include "cairn/bayes/triggers/triggers.hpp"
@@ -41,6 +43,11 @@ struct FilterOptions {
   TriggerOptions resample;  ///< when; recipe kld_mcl reads `ess` as: before every prediction
   double min_ess_share = 0.15;
   PoseKernelOptions kernel;
+  HypothesisOptions clusters;        ///< recipes csrl and ckld_srl
+  double cluster_memory = 0.9;       ///< recipe ckld_mcl: see TwoStage
+  SensorResettingOptions resetting;  ///< recipes srl and csrl
+  AugmentedOptions augmented;        ///< recipe amcl
+  double source_per_m2 = 20.0;  ///< poses that samples of p(x | z) are chosen from, per m^2 of free space
 
   void visit(OptionVisitor& visitor);
   void validate() const;  ///< @throws ConfigurationError

@@ -34,9 +34,9 @@ FusionParts compose(const LocalizerOptions& options, const std::vector<StreamInf
   options.validate();
   FusionParts parts;
   parts.streams = bind_streams(options, streams, maps);
-  parts.filter =
-      std::make_unique<ParticlePoseFilter>(make_filter(options, seed, executor), options.random_walk);
   const auto map = maps.main().grid();
+  parts.filter = std::make_unique<ParticlePoseFilter>(make_filter(options, seed, executor, map.get()),
+                                                      options.random_walk);
   if (start.T_map_base) {
     start_near(*start.T_map_base, map->geometry(), options.initial, *parts.filter);
   } else {

@@ -9,11 +9,24 @@
 namespace cairn {
 
 /// Builds the particle filter that `options.recipe` names:
-///   mcl      a fixed number of particles, resampling when the effective sample size has fallen
-///   kld_mcl  as many as KLD-sampling asks for, resampling before every prediction
-/// by the scheme that `options.filter.resampling` names.
-/// @throws ConfigurationError for an unknown name
+///   mcl       a fixed number of particles, resampling when the effective sample size has fallen
+///   kld_mcl   as many as KLD-sampling asks for, resampling before every prediction
+///   amcl      kld_mcl; while measurements are worse than usual, particles come from p(x | z)
+/// and those of Sehestedt & Schneider (ICINCO 2006), with samples of p(x | z) where they say so:
+///   srl       mcl with sensor resetting (their section 3.1)
+///   kld_srl   kld_mcl; the particles by which the set grows come from p(x | z) (table 2)
+///   csrl      srl with two-stage cluster sampling, no resetting while there are several clusters (table 3)
+///   ckld_srl  kld_srl with two-stage cluster sampling, never fewer particles while there are several (table
+///   4)
+/// and of our own:
+///   ckld_mcl  kld_mcl with two-stage cluster sampling that remembers (two_stage.hpp): hypotheses are kept
+///   apart
+///             until the evidence of the last metre or so tells
+/// The scheme that `options.filter.resampling` names is that of the recipes without clusters.
+/// @param map where p(x | z) is sampled: not needed by mcl and kld_mcl
+/// @throws ConfigurationError for an unknown name, and if a map is needed and missing
 ParticleFilter<Pose2, Pose2> make_filter(const LocalizerOptions& options, std::uint64_t seed,
-                                         std::shared_ptr<const Executor> executor);
+                                         std::shared_ptr<const Executor> executor,
+                                         const OccupancyGrid* map = nullptr);
 
 }  // namespace cairn

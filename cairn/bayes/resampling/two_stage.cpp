@@ -34,8 +34,8 @@ void ClusterWatch::load(PartMemory::Reader& memory) {
   moves_->load(memory);
 }
 
-// The members of a cluster and their weights, summed up to 1.
-void TwoStage::select(std::span<const double> cumulative, int cluster) {
+// The members of a cluster and their weights, summed up to 1. Returns the cluster's weight.
+double TwoStage::select(std::span<const double> cumulative, int cluster) {
   members_.clear();
   member_cumulative_.clear();
   double sum = 0.0;
@@ -47,20 +47,33 @@ void TwoStage::select(std::span<const double> cumulative, int cluster) {
   }
   for (double& c : member_cumulative_) c /= sum;
   member_cumulative_.back() = 1.0;
+  return sum;
 }
 
 void TwoStage::draw(std::span<const double> cumulative, std::size_t count, const DrawingNumbers& numbers,
                     std::vector<std::uint32_t>& ancestors) {
   CAIRN_ASSERT(table_->label.size() == cumulative.size());
   const std::size_t clusters = table_->clusters;
+  log_cluster_weights_.assign(clusters, 0.0);
   for (std::size_t cluster = 0; cluster < clusters; ++cluster) {
     const std::size_t share = count * (cluster + 1) / clusters - count * cluster / clusters;
-    if (share == 0) continue;
-    select(cumulative, static_cast<int>(cluster));
+    log_cluster_weights_[cluster] = std::log(select(cumulative, static_cast<int>(cluster)));
     drawn_.clear();
     draw_systematic(member_cumulative_, share, numbers.single(), drawn_);
     for (const std::uint32_t member : drawn_) ancestors.push_back(members_[member]);
+    cluster_of_drawn_.insert(cluster_of_drawn_.end(), share, cluster);
   }
+}
+
+// A cluster's weight C_j^memory, shared by its particles.
+bool TwoStage::weigh_drawn(std::span<double> log_weights) {
+  const std::vector<std::size_t> drawn = std::exchange(cluster_of_drawn_, {});
+  if (memory_ == 0.0 || log_cluster_weights_.size() < 2) return false;
+  std::vector<double> particles(log_cluster_weights_.size(), 0.0);
+  for (const std::size_t cluster : drawn) particles[cluster] += 1.0;
+  for (std::size_t i = 0; i < drawn.size(); ++i)
+    log_weights[i] += memory_ * log_cluster_weights_[drawn[i]] - std::log(particles[drawn[i]]);
+  return true;
 }
 
 }  // namespace cairn

@@ -43,23 +43,33 @@ class ClusterWatch final : public Regularization<Pose2> {
 
 /// Two-stage cluster sampling (Sehestedt & Schneider, section 5.1): every significant cluster is drawn, with
 /// an equal share of the particles, whatever its weight; within a cluster, the particles are drawn
-/// systematically by their weights. That is eq. 5 to 7: weights w = eta(x) p(z | x) with eta(x) = 1 / C_j,
-/// C_j the sum of the weights in the cluster of x. Particles of no significant cluster are not drawn: what
-/// they held is spread over the significant ones. With one cluster this is systematic resampling of its
-/// particles.
+/// systematically by their weights. Particles of no significant cluster are not drawn: what they held is
+/// spread over the significant ones. With one cluster this is systematic resampling of its particles.
+///
+/// In the paper (eq. 5 to 7) the weights are w = eta(x) p(z | x) with eta(x) = 1 / C_j, C_j the sum of the
+/// weights in the cluster of x: after each measurement all clusters count alike, and only a measurement that
+/// alone makes a cluster insignificant tells them apart. That is `memory` 0. With 1, a cluster keeps its
+/// weight C_j, exactly as Bayes has it if the measurements are independent. Between the two it keeps
+/// C_j^memory: a furniture that the map does not know speaks against the true place in every scan that sees
+/// it, and must not be counted each time; what lies 1 / (1 - memory) measurements back is forgotten.
 class TwoStage final : public Resampling {
  public:
-  explicit TwoStage(std::shared_ptr<const ClusterTable> table) : table_(std::move(table)) {}
+  explicit TwoStage(std::shared_ptr<const ClusterTable> table, double memory = 0.0)
+      : table_(std::move(table)), memory_(memory) {}
   void draw(std::span<const double> cumulative, std::size_t count, const DrawingNumbers& numbers,
             std::vector<std::uint32_t>& ancestors) override;
+  bool weigh_drawn(std::span<double> log_weights) override;
 
  private:
-  void select(std::span<const double> cumulative, int cluster);
+  double select(std::span<const double> cumulative, int cluster);
 
   std::shared_ptr<const ClusterTable> table_;
+  double memory_;
   std::vector<std::uint32_t> members_;
   std::vector<double> member_cumulative_;
   std::vector<std::uint32_t> drawn_;
+  std::vector<std::size_t> cluster_of_drawn_;  ///< since weigh_drawn()
+  std::vector<double> log_cluster_weights_;
 };
 
 /// The number of particles of clustered KLD-SRL (Sehestedt & Schneider, table 4, steps 2 to 4): as another
