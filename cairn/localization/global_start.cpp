@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Cholesky>
+
 namespace cairn {
 namespace {
 
@@ -65,8 +67,31 @@ void GlobalStart::weigh(const BoundUpdate<Pose2>& z, const Executor& executor) {
   cumulative_ = cumulative_weights(log_likelihoods);
 }
 
+void GlobalStart::add_modes(std::vector<LocatedPose> modes) {
+  modes_ = std::move(modes);
+  modes_share_ = modes_.empty() ? 0.0 : kModesShare;
+  spreads_.clear();
+  for (const LocatedPose& mode : modes_) {
+    const Eigen::LDLT<Eigen::Matrix3d> ldlt(mode.covariance);
+    const Eigen::Vector3d root = ldlt.vectorD().cwiseMax(0.0).cwiseSqrt();
+    const Eigen::Matrix3d lower = ldlt.matrixL();
+    spreads_.emplace_back(ldlt.transpositionsP().transpose() * (lower * root.asDiagonal()).eval());
+  }
+}
+
+Pose2 GlobalStart::sample_mode(double u, const RandomStream& random, std::uint32_t item) const {
+  std::size_t chosen = 0;
+  for (; chosen + 1 < modes_.size() && u >= modes_[chosen].weight; ++chosen) u -= modes_[chosen].weight;
+  const auto n = random.normal4(item, 1);
+  const Eigen::Vector3d d = spreads_[chosen] * Eigen::Vector3d(n[0], n[1], n[2]);
+  const Pose2& mean = modes_[chosen].T_map_base;
+  return {mean.x + d.x(), mean.y + d.y(), normalize_angle(mean.theta + d.z())};
+}
+
 Pose2 GlobalStart::sample(const RandomStream& random, std::uint32_t item) const {
-  const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end(), random.uniform(item));
+  const auto u = random.uniform4(item);
+  if (u[1] < modes_share_) return sample_mode(u[0], random, item);
+  const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end(), u[0]);
   const auto last = static_cast<std::ptrdiff_t>(candidates_.size()) - 1;
   return candidates_[static_cast<std::size_t>(std::min(found - cumulative_.begin(), last))];
 }

@@ -5,6 +5,7 @@
 #include "cairn/core/pose2.hpp"
 #include "cairn/core/rng.hpp"
 #include "cairn/maps/occupancy_grid.hpp"
+#include "cairn/models/search/one_shot.hpp"
 
 #include <vector>
 
@@ -25,15 +26,26 @@ class GlobalStart {
   /// them (tempering_exponent).
   void weigh(const BoundUpdate<Pose2>& z, const Executor& executor);
 
-  /// A candidate drawn by its weight, the same for the same `item`. @pre weigh has been called
+  /// Places found otherwise (one_shot.hpp): a share of the samples comes from them, by their weights and
+  /// normally distributed as their covariances say. None: no sample.
+  void add_modes(std::vector<LocatedPose> modes);
+
+  /// A candidate, or a pose around a mode, drawn by its weight; the same for the same `item`.
+  /// @pre weigh has been called
   Pose2 sample(const RandomStream& random, std::uint32_t item) const;
 
   static constexpr std::size_t kMostCandidates = 5'000'000;
   static constexpr double kLeastEssShare = 0.01;
+  static constexpr double kModesShare = 0.5;
 
  private:
+  Pose2 sample_mode(double u, const RandomStream& random, std::uint32_t item) const;
+
   std::vector<Pose2> candidates_;
   std::vector<double> cumulative_;
+  std::vector<LocatedPose> modes_;
+  std::vector<Eigen::Matrix3d> spreads_;  ///< L L^T = covariance of a mode
+  double modes_share_ = 0.0;
 };
 
 }  // namespace cairn

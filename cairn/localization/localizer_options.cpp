@@ -149,6 +149,8 @@ void GlobalOptions::visit(OptionVisitor& v) {
   v.number({"effective_beams", "as laser.effective_beams, likewise"}, effective_beams, {0.1, 100000});
   v.number({"candidates_per_m2", "poses that the first scan chooses from, per square metre of free space"},
            candidates_per_m2, {0.1, 1e5});
+  v.integer({"most_poses", "places that a search over the whole map finds for the first scan; 0: no search"},
+            most_poses, {0, 10000});
 }
 
 void LocalizerOptions::visit(OptionVisitor& v) {

@@ -83,6 +83,9 @@ struct GlobalOptions {
   double effective_beams = 6.0;
   double candidates_per_m2 =
       250.0;  ///< poses that the first scan of a robot that may be anywhere chooses from
+  /// places that a search over the whole map (one_shot.hpp) finds for the first scan: half of the first
+  /// particles stand there, the others are chosen from the candidates; 0: all from the candidates
+  int most_poses = 0;
 
   void visit(OptionVisitor& visitor);
 };

@@ -72,7 +72,7 @@ UpdateWork PoseBelief::update(const Event& event, const OdometryTrack& odometry)
   const StreamModel& model = *models_[event.stream];
   const bool anywhere = !state_.started && global_start_;
   if (anywhere) {
-    start_anywhere(model.bind(event.payload, false));
+    start_anywhere(model, event.payload);
   } else {
     filter_->predict(state_.started ? odometry.control(state_.updated_at, event.stamp) : PoseControl{});
     BoundUpdate<Pose2> z = model.bind(event.payload, filter_->compact());
@@ -96,8 +96,9 @@ UpdateWork PoseBelief::update(const Event& event, const OdometryTrack& odometry)
 
 // The first measurement of a robot that may be anywhere makes the first particles; it must not weigh them
 // once more.
-void PoseBelief::start_anywhere(const BoundUpdate<Pose2>& z) {
-  global_start_->weigh(z, *executor_);
+void PoseBelief::start_anywhere(const StreamModel& model, const Event::Payload& z) {
+  global_start_->weigh(model.bind(z, false), *executor_);
+  global_start_->add_modes(model.locate(z));
   filter_->initialize(
       [&](const RandomStream& random, std::uint32_t i) { return global_start_->sample(random, i); });
 }

@@ -78,7 +78,7 @@ class PoseBelief {
   void resolve_anchors(const OdometryTrack& odometry);
   bool worth_an_update(StreamId stream, Time stamp, const OdometryTrack& odometry,
                        const Scheduler& scheduler) const;
-  void start_anywhere(const BoundUpdate<Pose2>& z);
+  void start_anywhere(const StreamModel& model, const Event::Payload& z);
   UpdateWork update(const Event& event, const OdometryTrack& odometry);
 
   std::unique_ptr<PoseFilter> filter_;

@@ -1,8 +1,10 @@
 #include "cairn/localization/stream_binding.hpp"
 
 #include "cairn/core/errors.hpp"
+#include "cairn/models/search/one_shot.hpp"
 
 #include <algorithm>
+#include <mutex>
 
 namespace cairn {
 namespace {
@@ -43,18 +45,55 @@ void check_names(const LocalizerOptions& options, const std::vector<StreamInfo>&
   }
 }
 
-// A laser scanner: one sensor model at two widths.
+/// Finds a scanner's poses anywhere on a map; the map is prepared when that is first asked for.
+class LaserLocator {
+ public:
+  LaserLocator(std::shared_ptr<const OccupancyGrid> map, const LocalizerOptions& options,
+               const Pose2& T_base_sensor, const BeamLimits& limits)
+      : map_(std::move(map)),
+        model_(options.laser.likelihood_field),
+        T_base_sensor_(T_base_sensor),
+        limits_(limits) {
+    search_options_.most_poses = options.global.most_poses;
+    search_options_.effective_beams = options.global.effective_beams;
+  }
+
+  std::vector<LocatedPose> locate(const LaserScan& scan) const {
+    std::call_once(prepared_, [this] { search_ = std::make_unique<const PoseSearch>(*map_, model_); });
+    const auto points = select_end_points(scan, T_base_sensor_, limits_, kSearchedBeams);
+    return cairn::locate(*search_, points, search_options_).poses;
+  }
+
+ private:
+  static constexpr int kSearchedBeams = 180;
+  std::shared_ptr<const OccupancyGrid> map_;
+  LikelihoodFieldOptions model_;
+  Pose2 T_base_sensor_;
+  BeamLimits limits_;
+  OneShotOptions search_options_;
+  mutable std::once_flag prepared_;
+  mutable std::unique_ptr<const PoseSearch> search_;
+};
+
+// A laser scanner: one sensor model at two widths, and a search over the whole map.
 class LaserStream final : public StreamModel {
  public:
-  LaserStream(std::shared_ptr<const LaserModel> fine, std::shared_ptr<const LaserModel> coarse, int max_beams,
-              double cost)
-      : fine_(std::move(fine)), coarse_(std::move(coarse)), max_beams_(max_beams), cost_(cost) {}
+  LaserStream(std::shared_ptr<const LaserModel> fine, std::shared_ptr<const LaserModel> coarse,
+              std::unique_ptr<const LaserLocator> locator, int max_beams, double cost)
+      : fine_(std::move(fine)),
+        coarse_(std::move(coarse)),
+        locator_(std::move(locator)),
+        max_beams_(max_beams),
+        cost_(cost) {}
 
   BoundUpdate<Pose2> bind(const Event::Payload& z, bool compact) const override {
     return (compact ? fine_ : coarse_)->bind(scan_of(z));
   }
   double explained_share(const Event::Payload& z, const Pose2& T_map_base) const override {
     return fine_->explained_share(scan_of(z), T_map_base);
+  }
+  std::vector<LocatedPose> locate(const Event::Payload& z) const override {
+    return locator_ ? locator_->locate(scan_of(z)) : std::vector<LocatedPose>{};
   }
   double beams(const Event::Payload& z) const override {
     const auto beams = static_cast<double>(scan_of(z).ranges_m.size());
@@ -68,6 +107,7 @@ class LaserStream final : public StreamModel {
 
   std::shared_ptr<const LaserModel> fine_;
   std::shared_ptr<const LaserModel> coarse_;
+  std::unique_ptr<const LaserLocator> locator_;  ///< null: the search is switched off
   int max_beams_;
   double cost_;
 };
@@ -81,9 +121,12 @@ std::unique_ptr<const StreamModel> bind_laser(const LocalizerOptions& options,
   const LaserModelOptions coarse =
       widened(options.laser, options.global.sigma_hit_m, options.global.effective_beams);
   const MapSet& map = maps.at(laser.map);
+  std::unique_ptr<const LaserLocator> locator;
+  if (options.global.most_poses > 0)
+    locator = std::make_unique<const LaserLocator>(map.grid(), options, T_base_sensor, laser.limits);
   return std::make_unique<const LaserStream>(
       make_laser_model(name, {map, T_base_sensor, laser.limits, options.laser}),
-      make_laser_model(name, {map, T_base_sensor, laser.limits, coarse}),
+      make_laser_model(name, {map, T_base_sensor, laser.limits, coarse}), std::move(locator),
       options.laser.likelihood_field.max_beams, laser.cost);
 }
 

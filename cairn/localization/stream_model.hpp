@@ -3,7 +3,10 @@
 #include "cairn/bayes/models.hpp"
 #include "cairn/core/pose2.hpp"
 #include "cairn/localization/cost_clock.hpp"
+#include "cairn/models/search/one_shot.hpp"
 #include "cairn/sensing/event.hpp"
+
+#include <vector>
 
 namespace cairn {
 
@@ -16,6 +19,9 @@ class StreamModel {
   /// The measurement as a function of poses T_map_base alone. @param compact false while the belief is spread
   /// over several places: the likelihood has then to be as wide as the gaps between the particles
   virtual BoundUpdate<Pose2> bind(const Event::Payload& z, bool compact) const = 0;
+
+  /// Where the robot may be that measured z, whatever was believed before; none: this sensor cannot tell.
+  virtual std::vector<LocatedPose> locate(const Event::Payload& /*z*/) const { return {}; }
 
   /// Share of the measurement that the map explains, seen from `T_map_base`: 0..1.
   virtual double explained_share(const Event::Payload& z, const Pose2& T_map_base) const = 0;

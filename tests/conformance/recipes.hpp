@@ -22,7 +22,7 @@ struct RecipeCase {
   }
 };
 
-/// Every recipe, one line each; and each of them with every resampling scheme and every trigger.
+/// Every recipe, one line each; the plain ones with every resampling scheme and every trigger, too.
 inline std::vector<RecipeCase> recipes() {
   std::vector<RecipeCase> cases;
   for (const std::string recipe : {"mcl", "kld_mcl"}) {
@@ -42,6 +42,8 @@ inline std::vector<RecipeCase> recipes() {
                        }});
     }
   }
+  for (const std::string recipe : {"amcl", "srl", "kld_srl", "csrl", "ckld_srl", "ckld_mcl"})
+    cases.push_back({recipe, [recipe](LocalizerOptions& o) { o.recipe = recipe; }});
   return cases;
 }
 
