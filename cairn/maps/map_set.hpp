@@ -36,14 +36,17 @@ class MapSet {
     return found == maps_.end() ? nullptr : std::static_pointer_cast<const Map>(found->second);
   }
 
-  /// The representation made with these parameters (a text that tells them apart): made when first asked for.
+  /// The representation made with these parameters (a text that tells them apart): made when asked for, and shared as
+  /// long as somebody holds it.
   template <class Map>
   std::shared_ptr<const Map> derive(const std::string& parameters,
                                     const std::function<std::shared_ptr<const Map>()>& make) const {
     const std::lock_guard lock(mutex_);
-    std::shared_ptr<const void>& slot = maps_[{typeid(Map), "from " + parameters}];
-    if (!slot) slot = make();
-    return std::static_pointer_cast<const Map>(slot);
+    const std::pair<std::type_index, std::string> name(typeid(Map), parameters);
+    if (const auto shared = derived_[name].lock()) return std::static_pointer_cast<const Map>(shared);
+    const std::shared_ptr<const Map> made = make();
+    derived_[name] = made;
+    return made;
   }
 
   /// The occupancy grid. @throws ConfigurationError if the set has none
@@ -51,7 +54,8 @@ class MapSet {
 
  private:
   mutable std::recursive_mutex mutex_;  // a map may be derived from a derived one
-  mutable std::map<std::pair<std::type_index, std::string>, std::shared_ptr<const void>> maps_;
+  std::map<std::pair<std::type_index, std::string>, std::shared_ptr<const void>> maps_;
+  mutable std::map<std::pair<std::type_index, std::string>, std::weak_ptr<const void>> derived_;
 };
 
 /// The maps of a run by name. The first one is the main map: the robot's poses are those of its frame, and so

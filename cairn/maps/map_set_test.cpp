@@ -30,6 +30,15 @@ TEST(MapSet, DerivesEachMapOnce) {
   EXPECT_EQ(made, 2);
 }
 
+TEST(MapSet, KeepsNoDerivedMapThatNobodyHolds) {
+  const MapSet maps(a_grid());
+  int made = 0;
+  const std::weak_ptr<const DistanceField> gone = field_of(maps, 2.0, made);
+  EXPECT_TRUE(gone.expired());
+  field_of(maps, 2.0, made);
+  EXPECT_EQ(made, 2);
+}
+
 TEST(MapSet, AGivenMapIsNotADerivedOne) {
   const MapSet maps(a_grid());
   int made = 0;
