@@ -14,6 +14,8 @@ import sys
 from collections import defaultdict
 from pathlib import Path
 
+PATHS = ["scalar", "sse4", "avx2", "avx512"]
+
 
 def percentile(values, share):
     """By linear interpolation between the sorted values."""
@@ -82,6 +84,7 @@ def main():
     print(f"{name}; {' '.join(flags)}\npaths: {paths}\n")
     runs = repetitions(results)
     rows = [row for row in (row_of(name, runs) for name in runs) if row]
+    rows.sort(key=lambda row: (row["kernel"], row["n"], PATHS.index(row["path"])))
     print_rows(rows)
     count = max((len(found) for found in runs.values()), default=0)
     document = {"cpu": name, "flags": flags, "paths": paths, "repetitions": count, "rows": rows}
