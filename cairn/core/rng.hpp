@@ -23,6 +23,7 @@ enum class RandomPurpose : std::uint16_t {
   kCandidates = 6,
   kRefine = 7,
   kInject = 8,
+  kEvaluation = 9,
 };
 
 /// Random numbers as a pure function of (seed, purpose, step, item, draw).
