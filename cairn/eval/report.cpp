@@ -7,6 +7,7 @@
 #include "cairn/eval/base64.hpp"
 #include "cairn/eval/downsample.hpp"
 #include "cairn/eval/histogram.hpp"
+#include "cairn/eval/page.hpp"
 
 #include <cmath>
 
@@ -17,7 +18,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::string_view kMark = "<!--CAIRN:RUN-->";
 constexpr std::size_t kMaxPoints = 4000;
 constexpr std::size_t kMaxSnapshots = 400;
 constexpr std::size_t kMaxParticles = 120;
@@ -214,30 +214,10 @@ json RunWriter::write() const {
   return out;
 }
 
-// Inside a script element only "</script" and "<!--" mean something to HTML: without any '<' there is
-// neither.
-std::string to_script_text(const json& data) {
-  const std::string plain = data.dump(-1, ' ', false, json::error_handler_t::replace);
-  std::string text;
-  text.reserve(plain.size());
-  for (const char c : plain) {
-    if (c == '<')
-      text += "\\u003c";
-    else
-      text += c;
-  }
-  return text;
-}
-
 }  // namespace
 
 std::string render_report(std::string_view page, const ReportData& run) {
-  const std::size_t mark = page.find(kMark);
-  CAIRN_ASSERT(mark != std::string_view::npos);
-  std::string text(page.substr(0, mark));
-  text += to_script_text(RunWriter(run).write());
-  text += page.substr(mark + kMark.size());
-  return text;
+  return fill_page(page, RunWriter(run).write().dump(-1, ' ', false, json::error_handler_t::replace));
 }
 
 }  // namespace cairn
