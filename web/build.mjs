@@ -1,6 +1,6 @@
-// Makes the report page: bundles src/main.js with the parts of ECharts that it uses, and puts script and style into
-// src/report.html. Writes the page, and the same page as a C++ source for the program.
-// usage: node build.mjs PAGE.html [PAGE.cpp]
+// Makes a page: bundles its script with the parts of ECharts that it uses, and puts script and style into its
+// template. Writes the page, and the same page as a C++ source for the program.
+// usage: node build.mjs report|campaign PAGE.html [PAGE.cpp]
 import { build } from 'esbuild';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
@@ -37,13 +37,13 @@ const inScript = (code) => code.replaceAll('</script', '<\\/script');
 function fill(template, parts) {
   return Object.entries(parts).reduce((page, [name, text]) => {
     const mark = `<!--CAIRN:${name}-->`;
-    if (page.split(mark).length !== 2) throw new Error(`report.html must hold ${mark} once`);
+    if (page.split(mark).length !== 2) throw new Error(`the template must hold ${mark} once`);
     return page.replace(mark, () => text);
   }, template);
 }
 
 // Compilers limit the length of one literal, so the page goes in pieces; a delimiter that occurs nowhere in it.
-function toCpp(page) {
+function toCpp(name, page) {
   const pieces = [];
   for (let i = 0; i < page.length; i += 8000) pieces.push(`    R"CAIRNPAGE(${page.slice(i, i + 8000)})CAIRNPAGE"sv,`);
   return `// Made by web/build.mjs.
@@ -56,25 +56,29 @@ static constexpr std::string_view kPieces[] = {
 ${pieces.join('\n')}
 };
 
-std::string report_page() {
+std::string ${name}_page() {
   std::string page;
   for (const std::string_view piece : kPieces) page += piece;
   return page;
 }
 
-std::string why_no_report_page() { return {}; }
-
+${name === 'report' ? 'std::string why_no_report_page() { return {}; }\n' : ''}
 }  // namespace cairn::web
 `;
 }
 
-const script = inScript(await bundle('main.js', { format: 'iife' }));
+// Script and template of each page.
+const kPages = { report: ['main.js', 'report.html'], campaign: ['campaign.js', 'campaign.html'] };
+
+const [name, pageFile, cppFile] = process.argv.slice(2);
+const [entry, template] = kPages[name];
+const script = inScript(await bundle(entry, { format: 'iife' }));
 const style = await bundle('report.css');
-const page = fill(read('src', 'report.html'), {
+const page = fill(read('src', template), {
   STYLE: `<style>${style}</style>`,
   SCRIPT: `<script>${notices()}\n${script}</script>`,
 });
-for (const [file, text] of [[process.argv[2], page], [process.argv[3], toCpp(page)]]) {
+for (const [file, text] of [[pageFile, page], [cppFile, toCpp(name, page)]]) {
   if (!file) continue;
   mkdirSync(dirname(file), { recursive: true });
   writeFileSync(file, text);

@@ -41,6 +41,7 @@ int main(int argc, char** argv) {
   program.require_subcommand(0, 1);  // none: refused below; an unknown one is named by CLI11
   cairn::app::Runner run;
   cairn::app::add_config(program, run);
+  cairn::app::add_evaluate(program, run);
   cairn::app::add_localize(program, run);
   cairn::app::add_locate(program, run);
   cairn::app::add_log(program, run);

@@ -19,8 +19,8 @@ from pathlib import Path
 
 OK, FAILED, USAGE, BAD_INPUT, LOST = 0, 1, 2, 3, 4
 START = "1,1.2,0"
-SUBCOMMANDS = [[], ["config"], ["localize"], ["log"], ["log", "convert"], ["log", "info"], ["map"], ["map", "build"], ["map", "info"],
-               ["replay"], ["report"], ["score"], ["simulate"]]
+SUBCOMMANDS = [[], ["config"], ["evaluate"], ["localize"], ["log"], ["log", "convert"], ["log", "info"], ["map"], ["map", "build"],
+               ["map", "info"], ["replay"], ["report"], ["score"], ["simulate"]]
 ROOT = Path(__file__).resolve().parents[2]
 DATA = Path(os.environ.get("CAIRN_DATA", ROOT.parent / "shared" / "data"))
 CONFIGS = ROOT / "configs" / "datasets"

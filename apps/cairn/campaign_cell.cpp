@@ -1,0 +1,132 @@
+#include "apps/cairn/campaign_cell.hpp"
+
+#include "apps/cairn/fingerprint.hpp"
+#include "apps/cairn/run_directory.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+namespace cairn::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// Names as the user wrote them rather than absolute paths: the same on another machine.
+std::string file_name(const std::string& path) { return fs::path(path).filename().string(); }
+
+void add_outcomes(const json& metrics, CellResult& result) {
+  for (const json& stream : metrics["log"]["streams"]) {
+    if (stream["kind"] == "odometry") continue;
+    const auto name = stream["name"].get<std::string>();
+    double total = 0.0, used = 0.0, dropped = 0.0;
+    for (const auto& [outcome, count] : metrics["outcomes"][name].items()) {
+      const auto n = count.get<double>();
+      total += n;
+      if (outcome.rfind("used", 0) == 0) used += n;
+      if (outcome.rfind("dropped", 0) == 0) dropped += n;
+    }
+    if (total <= 0.0) continue;
+    result.metrics["drop_rate." + name] = dropped / total;
+    result.metrics["unused_rate." + name] = 1.0 - used / total;
+  }
+}
+
+double mean_particles(const std::vector<Estimate>& estimates) {
+  double sum = 0.0;
+  for (const Estimate& e : estimates) sum += e.particles;
+  return estimates.empty() ? 0.0 : sum / static_cast<double>(estimates.size());
+}
+
+void add_costs(const json& metrics, const JobEnd& end, CellResult& result) {
+  result.metrics["cpu_s"] = end.cpu_s;
+  result.metrics["wall_s"] = end.wall_s;
+  result.metrics["run_s"] = metrics["timings"]["run_s"].get<double>();
+  result.metrics["peak_memory_bytes"] = static_cast<double>(end.peak_memory_bytes);
+  result.metrics["updates"] = metrics["updates"].get<double>();
+}
+
+}  // namespace
+
+CellRecording recording_of(const Campaign& campaign, const CampaignCell& cell, const fs::path& logs) {
+  const CampaignInput& input = campaign.inputs[cell.input];
+  if (input.world.empty()) return {input.log, input.map, input.reference, {}, {}};
+  CellRecording recording;
+  const std::string seed = input.world_seed == "each" ? std::to_string(cell.seed) : input.world_seed;
+  recording.simulate = {"simulate", input.world, "--seed", seed};
+  if (input.duration_s > 0.0) {
+    recording.simulate.insert(recording.simulate.end(), {"--duration", fmt::format("{}", input.duration_s)});
+  }
+  for (const std::string& setting : split_words(input.world_set)) {
+    recording.simulate.insert(recording.simulate.end(), {"--set", setting});
+  }
+  Fingerprint fingerprint;
+  for (const std::string& word : recording.simulate)
+    fingerprint.add(word == input.world ? file_name(word) : word);
+  if (fs::is_regular_file(input.world)) fingerprint.add_file(input.world);
+  recording.id = fingerprint.text();
+  const fs::path folder = logs / recording.id;
+  recording.log = (folder / kSimulatedLog).string();
+  recording.map = (folder / kSimulatedMap).string();
+  recording.reference = (folder / kSimulatedTruth).string();
+  return recording;
+}
+
+std::vector<std::string> localize_arguments(const Campaign& campaign, const CampaignCell& cell,
+                                            const CellRecording& recording) {
+  const CampaignInput& input = campaign.inputs[cell.input];
+  const CellSettings settings = settings_of(campaign, cell);
+  std::vector<std::string> words{"localize", "--map", recording.map, "--log", recording.log};
+  const auto add = [&words](std::initializer_list<std::string> more) { words.insert(words.end(), more); };
+  if (!recording.reference.empty()) add({"--reference", recording.reference});
+  if (!settings.config.empty()) add({"--config", settings.config});
+  for (const std::string& setting : settings.set) add({"--set", setting});
+  if (input.start == "global") {
+    add({"--global"});
+  } else {
+    add({"--init", input.start, "--init-error", input.start_error});
+  }
+  add({"--seed", std::to_string(cell.seed), "--threads", "1"});
+  return words;
+}
+
+std::string cell_id(const Campaign& campaign, const CampaignCell& cell, const CellRecording& recording) {
+  const CampaignInput& input = campaign.inputs[cell.input];
+  const CellSettings settings = settings_of(campaign, cell);
+  Fingerprint fingerprint;
+  for (const std::string& name : {input.name, cell.recipe, campaign.parameters[cell.parameters].name,
+                                  cell.variant, std::to_string(cell.seed), input.start, input.start_error,
+                                  fmt::format("{}", campaign.rpe_delta_m), recording.id}) {
+    fingerprint.add(name);
+  }
+  for (const std::string& setting : settings.set) fingerprint.add(setting);
+  fingerprint.add_file(settings.config);
+  if (!recording.simulate.empty()) return fingerprint.text();
+  for (const std::string& path : {recording.log, recording.map, recording.reference}) {
+    fingerprint.add(file_name(path));
+    fingerprint.add_file(path);
+  }
+  return fingerprint.text();
+}
+
+CellResult read_cell(const Campaign& campaign, const CampaignCell& cell, const fs::path& run,
+                     const JobEnd& end) {
+  const RunData data = read_run(run);
+  CellResult result;
+  result.input = campaign.inputs[cell.input].name;
+  result.recipe = data.metrics.value("recipe", cell.recipe);
+  result.parameters = campaign.parameters[cell.parameters].name;
+  result.variant = cell.variant;
+  result.seed = cell.seed;
+  result.metrics["lost"] = data.metrics.value("verdict", "lost") == "lost" ? 1.0 : 0.0;
+  if (data.reference && data.metrics.contains("accuracy")) {
+    ScoreOptions options;
+    options.rpe_delta_m = campaign.rpe_delta_m;
+    add_accuracy(score(*data.reference, data.trajectory, options), *data.reference, result);
+  }
+  add_outcomes(data.metrics, result);
+  add_costs(data.metrics, end, result);
+  result.metrics["particles_mean"] = mean_particles(data.estimates);
+  return result;
+}
+
+}  // namespace cairn::app

@@ -1,0 +1,50 @@
+// Builds the page of a campaign from the JSON blob that cairn/eval/campaign_tables.cpp puts into it.
+import { byId, el } from './dom.js';
+import { drawCells, drawComparisons, drawGroups } from './campaign_tables.js';
+import { drawConvergence, drawDistribution, drawErrorMap, drawIntervals, drawSurvival } from './campaign_charts.js';
+import { onThemeChange } from './theme.js';
+
+function drawHeader({ title, about, finished, cells }) {
+  document.title = title;
+  const done = el('span', { class: `badge ${finished === cells ? 'good' : 'warn'}` }, `${finished} of ${cells} runs`);
+  byId('headline').append(el('div', { class: 'brand' }, 'Cairn campaign'), el('h1', {}, title), el('p', { class: 'facts' }, about));
+  byId('verdict').append(done);
+}
+
+function select(label, names, change) {
+  const options = names.map((name) => el('option', { value: name }, name));
+  return el('label', {}, label, el('select', { onchange: (event) => change(event.target.value) }, ...options));
+}
+
+// Which metric and which input the charts show; every chart redraws itself from it.
+function makeChoices(data) {
+  const inputs = [...new Set(data.results.map((result) => result.input))];
+  const metrics = [...data.columns, ...Object.keys(data.styles).filter((name) => !data.columns.includes(name))];
+  const choice = { metric: metrics[0], input: inputs[0] };
+  const choose = (key) => (value) => {
+    choice[key] = value;
+    onThemeChange.notify();
+  };
+  byId('choices').append(select('Metric', metrics, choose('metric')), select('Input', inputs, choose('input')));
+  return choice;
+}
+
+function main() {
+  try {
+    const data = JSON.parse(byId('run').textContent);
+    drawHeader(data);
+    drawGroups(data, byId('groups'));
+    drawComparisons(data, byId('comparisons'));
+    const choice = makeChoices(data);
+    const charts = byId('charts');
+    for (const draw of [drawIntervals, drawErrorMap, drawConvergence, drawSurvival, drawDistribution]) draw(data, choice, charts);
+    drawCells(data, byId('cells'));
+    onThemeChange.notifyOnChange();
+    document.documentElement.dataset.ready = 'yes';
+  } catch (error) {
+    byId('headline').append(el('p', { class: 'problem' }, `This page cannot be shown: ${error.message}`));
+    throw error;
+  }
+}
+
+main();
