@@ -2,7 +2,7 @@
 
 #include "apps/cairn/key_place.hpp"
 #include "apps/cairn/pose_option.hpp"
-#include "apps/cairn/world_choice.hpp"
+#include "apps/cairn/world_file.hpp"
 #include "cairn/core/errors.hpp"
 #include "cairn/io/configuration.hpp"
 #include "cairn/io/input_file.hpp"

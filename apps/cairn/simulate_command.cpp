@@ -1,12 +1,14 @@
 #include "apps/cairn/commands.hpp"
+#include "apps/cairn/key_place.hpp"
 #include "apps/cairn/seed_option.hpp"
+#include "apps/cairn/world_file.hpp"
 #include "cairn/core/errors.hpp"
 #include "cairn/io/carmen_writer.hpp"
+#include "cairn/io/configuration.hpp"
 #include "cairn/io/map_yaml.hpp"
 #include "cairn/io/tum_trajectory.hpp"
-#include "cairn/sim/office_recording.hpp"
+#include "cairn/sim/world_recording.hpp"
 
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -16,38 +18,64 @@
 namespace cairn::app {
 namespace {
 
-constexpr double kLongest_s = 3600.0;
+constexpr double kLongest_s = 36000.0;
 
 struct Arguments {
   std::string world;
   std::string out;
+  std::vector<std::string> settings;
   std::string seed = "1";
   double duration_s = 0.0;
+  int threads = 1;
+  bool print = false;
 };
 
-OfficeRecordingOptions check(const Arguments& arguments) {
-  if (arguments.world != "office") {
-    throw ConfigurationError("WORLD", "there is no world '" + arguments.world + "'",
-                             "give 'office'; world files cannot be read yet");
-  }
+void check(const Arguments& arguments) {
   if (!(arguments.duration_s >= 0.0 && arguments.duration_s <= kLongest_s)) {
-    throw ConfigurationError("--duration", "is not between 0 and 3600 s", "give 0 for one tour");
+    throw ConfigurationError("--duration", "is not between 0 and 36000 s",
+                             "give 0 for once through the mission");
   }
-  OfficeRecordingOptions options;
-  options.duration = duration_from_seconds(arguments.duration_s);
-  return options;
+  if (arguments.out.empty() && !arguments.print) {
+    throw ConfigurationError("--out", "is missing", "name the log to write, or give --print");
+  }
+}
+
+std::vector<std::string> settings_of(const Arguments& arguments) {
+  std::vector<std::string> settings = arguments.settings;
+  if (arguments.duration_s > 0.0)
+    settings.push_back(fmt::format("robot.duration_s={}", arguments.duration_s));
+  return settings;
 }
 
 std::filesystem::path beside(const std::filesystem::path& log, const char* ending) {
   return std::filesystem::path(log).replace_extension(ending);
 }
 
+// What a recording of the world says wrong is told with the key's place, as what its building says.
+WorldRecording record(const Arguments& arguments, const World& world, std::uint64_t seed) {
+  WorldRecording recording;
+  const std::string text = is_built_in_world(arguments.world) ? "" : read_world_text(arguments.world);
+  with_key_places(arguments.world, text,
+                  [&] { recording = record_world(world, seed, Executor(arguments.threads)); });
+  return recording;
+}
+
+int print_world(const Arguments& arguments, std::uint64_t seed) {
+  WorldOptions options = read_world_options(arguments.world, settings_of(arguments), seed);
+  std::cout << write_configuration([&](OptionVisitor& v) { options.visit(v); });
+  return kOk;
+}
+
 int run_simulate(const Arguments& arguments) {
+  check(arguments);
+  const std::uint64_t seed = parse_seed("--seed", arguments.seed);
+  if (arguments.print) return print_world(arguments, seed);
   const std::filesystem::path log = arguments.out;
-  OfficeRecording recording = record_office(check(arguments), parse_seed("--seed", arguments.seed));
+  const World world = read_world(arguments.world, settings_of(arguments), seed);
+  WorldRecording recording = record(arguments, world, seed);
   write_carmen_log(log, {"", recording.streams, std::move(recording.events), {}});
   write_tum(beside(log, ".truth.tum"), recording.truth);
-  write_map(beside(log, ".map.yaml"), recording.map);
+  write_map(beside(log, ".map.yaml"), world.map);
   const Pose2& start = recording.truth.front().pose;
   std::cout << fmt::format("log       {} ({:.1f} s, {:.1f} m)\n", log.string(),
                            to_seconds(recording.truth.back().stamp), path_length(recording.truth))
@@ -64,16 +92,19 @@ void add_simulate(CLI::App& program, Runner& run) {
   auto a = std::make_shared<Arguments>();
   command
       ->add_option("WORLD", a->world,
-                   "office: a generated office; a robot with a laser drives through all its rooms")
+                   "office, cross, hall, corridor, warehouse, or a world file (YAML; see docs/worlds.md)")
       ->required();
-  command
-      ->add_option(
-          "--out", a->out,
-          "The log to write (CARMEN text); truth (.truth.tum) and map (.map.yaml, .map.png) go beside it")
-      ->required();
-  command->add_option("--seed", a->seed, "Of the office, its people and all noise")->capture_default_str();
-  command->add_option("--duration", a->duration_s, "Seconds to drive (0: once through all rooms)")
+  command->add_option(
+      "--out", a->out,
+      "The log to write (CARMEN text); truth (.truth.tum) and map (.map.yaml, .map.png) go beside it");
+  command->add_option("--set", a->settings, "key=value, over the world; may be repeated");
+  command->add_option("--seed", a->seed, "Of the people, the mission and all noise; and of the office")
       ->capture_default_str();
+  command->add_option("--duration", a->duration_s, "Seconds to drive (0: as the world says)")
+      ->capture_default_str();
+  command->add_option("--threads", a->threads, "Changes the time taken, never the results")
+      ->capture_default_str();
+  command->add_flag("--print", a->print, "Print the world with all its options instead");
   command->callback([a, &run] { run = [a] { return run_simulate(*a); }; });
 }
 

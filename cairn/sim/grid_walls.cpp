@@ -1,0 +1,55 @@
+#include "cairn/sim/grid_walls.hpp"
+
+namespace cairn {
+namespace {
+
+class EdgeCollector {
+ public:
+  explicit EdgeCollector(const OccupancyGrid& grid) : grid_(grid), geometry_(grid.geometry()) {}
+
+  std::vector<Wall> collect() {
+    // Lines between rows, then lines between columns: `along` runs, `across` numbers the lines.
+    for (int across = 0; across <= geometry_.height; ++across) {
+      walk(
+          geometry_.width, [&](int along) { return occupied(along, across) != occupied(along, across - 1); },
+          [&](int along) { return point(along, across); });
+    }
+    for (int across = 0; across <= geometry_.width; ++across) {
+      walk(
+          geometry_.height, [&](int along) { return occupied(across, along) != occupied(across - 1, along); },
+          [&](int along) { return point(across, along); });
+    }
+    return std::move(walls_);
+  }
+
+ private:
+  bool occupied(int column, int row) const {
+    return geometry_.contains(column, row) &&
+           grid_.state(geometry_.index(column, row)) == CellState::kOccupied;
+  }
+
+  Point2 point(int column, int row) const {
+    return geometry_.T_map_grid * Point2{column * geometry_.resolution_m, row * geometry_.resolution_m};
+  }
+
+  template <typename IsEdge, typename At>
+  void walk(int count, IsEdge is_edge, At at) {
+    for (int begin = 0; begin < count; ++begin) {
+      if (!is_edge(begin)) continue;
+      int end = begin + 1;
+      while (end < count && is_edge(end)) ++end;
+      walls_.push_back({at(begin), at(end), Material::kOpaque});
+      begin = end;
+    }
+  }
+
+  const OccupancyGrid& grid_;
+  GridGeometry geometry_;
+  std::vector<Wall> walls_;
+};
+
+}  // namespace
+
+std::vector<Wall> walls_of_grid(const OccupancyGrid& grid) { return EdgeCollector(grid).collect(); }
+
+}  // namespace cairn

@@ -1,0 +1,194 @@
+#include "cairn/sim/mission.hpp"
+
+#include "cairn/core/angle.hpp"
+#include "cairn/core/errors.hpp"
+#include "cairn/sim/simulation_random.hpp"
+#include "cairn/sim/tour_driver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cairn {
+namespace {
+
+constexpr const char* kPointsKey = "robot.points";
+constexpr Duration kRandomDrive = std::chrono::seconds(60);
+constexpr double kReached_m = 0.1;
+
+std::string text_of(const Point2& p) {
+  const auto rounded = [](double v) { return std::to_string(v).substr(0, std::to_string(v).find('.') + 3); };
+  return "(" + rounded(p.x) + ", " + rounded(p.y) + ")";
+}
+
+void check_free(const World& world, const Point2& point, const char* key) {
+  if (world.planner.is_free(point)) return;
+  throw ConfigurationError(key,
+                           "leads to " + text_of(point) +
+                               ", which lies in a wall, nearer to one than the robot's radius, or outside",
+                           "move the point, or make robot.radius_m smaller");
+}
+
+std::vector<Point2> planned_way(const World& world, const Point2& from, const std::vector<Point2>& points) {
+  std::vector<Point2> way;
+  Point2 at = from;
+  for (const Point2& next : points) {
+    check_free(world, next, kPointsKey);
+    const auto route = world.planner.route(at, next);
+    if (!route) {
+      throw ConfigurationError(kPointsKey, "there is no way from " + text_of(at) + " to " + text_of(next),
+                               "move the point, open a wall, or make robot.radius_m smaller");
+    }
+    way.insert(way.end(), route->begin(), route->end());
+    at = next;
+  }
+  return way;
+}
+
+std::vector<Point2> straight_way(const World& world, const Point2& from, const std::vector<Point2>& points) {
+  Point2 at = from;
+  for (const Point2& next : points) {
+    if (!world.planner.sees(at, next)) {
+      throw ConfigurationError(
+          kPointsKey,
+          "the line from " + text_of(at) + " to " + text_of(next) + " leads through or too near to a wall",
+          "move the points, or use mission: waypoints, which drives around walls");
+    }
+    at = next;
+  }
+  return points;
+}
+
+// Far more than a drive of any duration can reach are not needed: ten a minute.
+std::vector<Point2> random_points(const World& world, Duration duration, std::uint64_t seed) {
+  const auto& free = world.planner.free_points();
+  const auto count = static_cast<std::size_t>(2.0 + to_seconds(duration) / 6.0);
+  std::vector<Point2> points;
+  Point2 at{world.start.x, world.start.y};
+  for (std::uint64_t step = 0; points.size() < count && step < 20 * count; ++step) {
+    const double u = simulation_random(seed, SimulationUse::kMission, step).uniform(0);
+    const Point2& point =
+        free[std::min(free.size() - 1, static_cast<std::size_t>(u * static_cast<double>(free.size())))];
+    if (!world.planner.route(at, point)) continue;
+    points.push_back(point);
+    at = point;
+  }
+  return points;
+}
+
+// Ends of the free stretches of lanes along x, there and back.
+std::vector<Point2> coverage_points(const World& world) {
+  const auto& free = world.planner.free_points();
+  const double spacing = world.options.robot.spacing_m;
+  std::vector<Point2> points;
+  const double lowest = free.front().y;
+  bool forward = true;
+  for (double lane = lowest; lane <= free.back().y; lane += spacing) {
+    std::vector<Point2> ends;
+    for (const Point2& p : free) {
+      if (std::abs(p.y - lane) > 0.51 * world.planner.resolution_m()) continue;
+      const bool continues =
+          !ends.empty() && p.x - ends.back().x < 1.5 * world.planner.resolution_m() && ends.size() % 2 == 0;
+      if (continues) {
+        ends.back() = p;
+      } else {
+        ends.insert(ends.end(), {p, p});
+      }
+    }
+    if (!forward) std::reverse(ends.begin(), ends.end());
+    forward = !forward;
+    for (const Point2& p : ends) {
+      if (world.planner.route({world.start.x, world.start.y}, p)) points.push_back(p);
+    }
+  }
+  return points;
+}
+
+std::vector<Point2> mission_points(const World& world, Duration duration, std::uint64_t seed) {
+  const WorldRobotOptions& robot = world.options.robot;
+  if (robot.mission == "random") return random_points(world, duration, seed);
+  if (robot.mission == "coverage") return coverage_points(world);
+  std::vector<Point2> points = parse_points(kPointsKey, robot.points);
+  if (points.empty()) throw ConfigurationError(kPointsKey, "is empty", "write x,y separated by blanks");
+  return points;
+}
+
+// Moves straight to each point and turns slowly all the while, as only omnidirectional wheels can.
+Trajectory drive_sideways(const Pose2& start, const std::vector<Point2>& way, const DriveLimits& limits,
+                          Duration duration) {
+  const double dt = to_seconds(limits.step);
+  Trajectory path{{Time{}, start}};
+  double speed = 0.0;
+  std::size_t next = 0;
+  while (duration == Duration::zero() || path.back().stamp.time_since_epoch() < duration) {
+    const auto [stamp, pose] = path.back();
+    const double dx = way[next].x - pose.x, dy = way[next].y - pose.y;
+    const double left = std::hypot(dx, dy);
+    if (left < kReached_m) {
+      next = (next + 1) % way.size();
+      if (next == 0 && duration == Duration::zero()) break;
+    }
+    const double wanted = std::min(limits.speed_mps, std::sqrt(limits.acceleration_mps2 * left));
+    speed += std::clamp(wanted - speed, -limits.acceleration_mps2 * dt, limits.acceleration_mps2 * dt);
+    const double step = left > 0.0 ? std::min(left, speed * dt) / left : 0.0;
+    path.push_back({stamp + limits.step,
+                    {pose.x + step * dx, pose.y + step * dy,
+                     normalize_angle(pose.theta + 0.25 * limits.turn_rate_radps * dt)}});
+  }
+  return path;
+}
+
+Trajectory drive(const World& world, const Pose2& start, const std::vector<Point2>& way, Duration duration) {
+  DriveLimits limits;
+  limits.speed_mps = world.options.robot.speed_mps;
+  limits.turn_rate_radps = world.options.robot.turn_rate_radps;
+  if (world.options.robot.drive == "omnidirectional") return drive_sideways(start, way, limits, duration);
+  return drive_tour(start, way, limits, duration);
+}
+
+// A drive that lasts longer than one round goes back to `from` before it begins again.
+std::vector<Point2> way_from(const World& world, const Point2& from, const std::vector<Point2>& points,
+                             bool is_polyline, Duration duration) {
+  std::vector<Point2> way =
+      is_polyline ? straight_way(world, from, points) : planned_way(world, from, points);
+  if (duration == Duration::zero()) return way;
+  if (const auto back = world.planner.route(points.back(), from))
+    way.insert(way.end(), back->begin(), back->end());
+  return way;
+}
+
+// From where it was carried to, the robot drives the whole mission; what is left of the duration decides how
+// far.
+void kidnap(const World& world, const std::vector<Point2>& points, RobotDrive& driven) {
+  const WorldRobotOptions& robot = world.options.robot;
+  const Time at = Time{} + duration_from_seconds(robot.kidnap_at_s);
+  if (robot.kidnap_at_s <= 0.0 || at >= driven.truth.back().stamp) return;
+  const Pose2 to = parse_world_pose("robot.kidnap_to", robot.kidnap_to);
+  check_free(world, {to.x, to.y}, "robot.kidnap_to");
+  const Duration left = driven.truth.back().stamp - at;
+  const auto is_later = [at](const StampedPose& p) { return p.stamp >= at; };
+  const auto cut = std::find_if(driven.truth.begin(), driven.truth.end(), is_later);
+  const Time first = cut->stamp;
+  driven.truth.erase(cut, driven.truth.end());
+  driven.kidnapped_to = driven.truth.size();
+  const auto way = way_from(world, {to.x, to.y}, points, false, left);
+  for (const StampedPose& p : drive(world, to, way, left)) {
+    driven.truth.push_back({first + p.stamp.time_since_epoch(), p.pose});
+  }
+}
+
+}  // namespace
+
+RobotDrive drive_mission(const World& world, std::uint64_t seed) {
+  const WorldRobotOptions& robot = world.options.robot;
+  Duration duration = duration_from_seconds(robot.duration_s);
+  if (robot.mission == "random" && duration == Duration::zero()) duration = kRandomDrive;
+  check_free(world, {world.start.x, world.start.y}, "robot.start");
+  const std::vector<Point2> points = mission_points(world, duration, seed);
+  const std::vector<Point2> way =
+      way_from(world, {world.start.x, world.start.y}, points, robot.mission == "polyline", duration);
+  RobotDrive driven{drive(world, world.start, way, duration), 0};
+  kidnap(world, points, driven);
+  return driven;
+}
+
+}  // namespace cairn

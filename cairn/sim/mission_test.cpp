@@ -1,0 +1,116 @@
+#include "cairn/sim/mission.hpp"
+
+#include "cairn/core/errors.hpp"
+#include "small_world.hpp"
+
+#include <cmath>
+#include <functional>
+
+#include <gtest/gtest.h>
+
+namespace cairn {
+namespace {
+
+RobotDrive driven(const std::function<void(WorldOptions&)>& change, std::uint64_t seed = 1) {
+  WorldOptions options = test::small_world_options();
+  options.walls.push_back({"divider", "0,3 6,3", false, "opaque", true});
+  change(options);
+  return drive_mission(make_world(options), seed);
+}
+
+std::string refusal(const std::function<void(WorldOptions&)>& change) {
+  try {
+    driven(change);
+  } catch (const ConfigurationError& error) {
+    return error.where();
+  }
+  return "accepted";
+}
+
+bool comes_near(const Trajectory& truth, const Point2& p) {
+  for (const StampedPose& s : truth) {
+    if (std::hypot(s.pose.x - p.x, s.pose.y - p.y) < 0.12) return true;
+  }
+  return false;
+}
+
+TEST(Mission, WaypointsAreReachedAroundWalls) {
+  const Trajectory truth = driven([](WorldOptions& o) { o.robot.points = "7,1 1,5"; }).truth;
+  EXPECT_TRUE(comes_near(truth, {7.0, 1.0}));
+  EXPECT_TRUE(comes_near(truth, {1.0, 5.0}));
+  for (const StampedPose& s : truth) EXPECT_FALSE(s.pose.x < 5.9 && std::abs(s.pose.y - 3.0) < 0.2);
+}
+
+TEST(Mission, ALongDriveGoesRoundAndRound) {
+  const Trajectory truth = driven([](WorldOptions& o) {
+                             o.robot.points = "1,5";
+                             o.robot.duration_s = 100.0;
+                           }).truth;
+  EXPECT_EQ(truth.back().stamp, time_from_seconds(100.0));
+  for (const StampedPose& s : truth) EXPECT_FALSE(s.pose.x < 5.9 && std::abs(s.pose.y - 3.0) < 0.2);
+}
+
+TEST(Mission, ThroughWallsIsRefused) {
+  EXPECT_EQ(refusal([](WorldOptions& o) { o.robot.points = "0,5"; }), "robot.points") << "in a wall";
+  EXPECT_EQ(refusal([](WorldOptions& o) { o.robot.points = "1,50"; }), "robot.points") << "outside";
+  EXPECT_EQ(refusal([](WorldOptions& o) { o.robot.points = ""; }), "robot.points");
+  EXPECT_EQ(refusal([](WorldOptions& o) {
+              o.robot.mission = "polyline";
+              o.robot.points = "1,5";
+            }),
+            "robot.points")
+      << "through the divider";
+  EXPECT_EQ(refusal([](WorldOptions& o) { o.walls[1].points = "0,3 8,3"; }), "robot.points") << "no way";
+}
+
+TEST(Mission, RandomDrivesDifferBySeedOnly) {
+  const auto random = [](WorldOptions& o) { o.robot.mission = "random"; };
+  const RobotDrive drive = driven(random, 1);
+  EXPECT_EQ(drive.truth, driven(random, 1).truth);
+  EXPECT_NE(drive.truth, driven(random, 2).truth);
+  EXPECT_EQ(drive.truth.back().stamp, time_from_seconds(60.0));
+}
+
+TEST(Mission, CoverageComesNearEverything) {
+  const Trajectory truth = driven([](WorldOptions& o) {
+                             o.robot.mission = "coverage";
+                             o.robot.spacing_m = 1.0;
+                           }).truth;
+  for (double x = 0.75; x < 7.5; x += 0.5) {
+    for (double y : {0.75, 1.75, 2.25, 3.75, 4.75, 5.25}) {
+      double nearest = 1e9;
+      for (const StampedPose& s : truth) nearest = std::min(nearest, std::hypot(s.pose.x - x, s.pose.y - y));
+      EXPECT_LT(nearest, 0.8) << x << " " << y;
+    }
+  }
+}
+
+TEST(Mission, AnOmnidirectionalRobotMovesSideways) {
+  const Trajectory truth = driven([](WorldOptions& o) { o.robot.drive = "omnidirectional"; }).truth;
+  double most_sideways = 0.0;
+  for (std::size_t i = 1; i < truth.size(); ++i) {
+    most_sideways = std::max(most_sideways, std::abs(between(truth[i - 1].pose, truth[i].pose).y));
+  }
+  EXPECT_GT(most_sideways, 0.005);
+}
+
+TEST(Mission, AKidnappedRobotGoesOnFromElsewhere) {
+  const auto kidnapping = [](WorldOptions& o) {
+    o.robot.kidnap_at_s = 5.0;
+    o.robot.kidnap_to = "2,5,1.5";
+  };
+  const RobotDrive drive = driven(kidnapping);
+  ASSERT_GT(drive.kidnapped_to, 0U);
+  EXPECT_EQ(drive.truth[drive.kidnapped_to].stamp, time_from_seconds(5.0));
+  EXPECT_EQ(drive.truth[drive.kidnapped_to].pose, (Pose2{2.0, 5.0, 1.5}));
+  for (std::size_t i = 1; i < drive.truth.size(); ++i)
+    EXPECT_LT(drive.truth[i - 1].stamp, drive.truth[i].stamp);
+  EXPECT_EQ(refusal([](WorldOptions& o) {
+              o.robot.kidnap_at_s = 5.0;
+              o.robot.kidnap_to = "-1,5,0";
+            }),
+            "robot.kidnap_to");
+}
+
+}  // namespace
+}  // namespace cairn

@@ -1,0 +1,125 @@
+#include "cairn/sim/route_planner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+
+namespace cairn {
+namespace {
+
+constexpr double kFurthest_m = 5.0;
+constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
+
+struct Open {
+  double estimate;  // of the whole way through this cell
+  std::size_t cell;
+  // Ties are broken by the cell's number: the same way on every machine.
+  bool operator>(const Open& o) const {
+    return estimate != o.estimate ? estimate > o.estimate : cell > o.cell;
+  }
+};
+
+using Queue = std::priority_queue<Open, std::vector<Open>, std::greater<>>;
+
+}  // namespace
+
+RoutePlanner::RoutePlanner(const OccupancyGrid& grid, double clearance_m)
+    : geometry_(grid.geometry()), open_(grid.geometry().size(), false) {
+  const DistanceField field(grid, kFurthest_m);
+  for (int row = 0; row < geometry_.height; ++row) {
+    for (int column = 0; column < geometry_.width; ++column) {
+      const std::size_t cell = geometry_.index(column, row);
+      if (grid.state(cell) != CellState::kFree || field.distance_m(cell) < clearance_m) continue;
+      open_[cell] = true;
+      free_points_.push_back(geometry_.center(column, row));
+    }
+  }
+}
+
+bool RoutePlanner::is_open(int column, int row) const {
+  return geometry_.contains(column, row) && open_[geometry_.index(column, row)];
+}
+
+std::optional<std::size_t> RoutePlanner::cell_of(const Point2& point) const {
+  const Point2 p = geometry_.to_cells(point);
+  const int column = static_cast<int>(std::floor(p.x)), row = static_cast<int>(std::floor(p.y));
+  if (!is_open(column, row)) return std::nullopt;
+  return geometry_.index(column, row);
+}
+
+bool RoutePlanner::is_free(const Point2& point) const { return cell_of(point).has_value(); }
+
+bool RoutePlanner::sees(const Point2& a, const Point2& b) const {
+  const double length = std::hypot(b.x - a.x, b.y - a.y);
+  const int steps = 1 + static_cast<int>(2.0 * length / geometry_.resolution_m);
+  for (int i = 0; i <= steps; ++i) {
+    const double s = static_cast<double>(i) / steps;
+    if (!is_free({std::lerp(a.x, b.x, s), std::lerp(a.y, b.y, s)})) return false;
+  }
+  return true;
+}
+
+std::optional<std::vector<Point2>> RoutePlanner::route(const Point2& from, const Point2& to) const {
+  const auto start = cell_of(from), goal = cell_of(to);
+  if (!start || !goal) return std::nullopt;
+  if (sees(from, to)) return std::vector<Point2>{to};
+  const auto width = static_cast<std::size_t>(geometry_.width);
+  const auto guess = [&](std::size_t cell) {
+    const double dx = static_cast<double>(cell % width) - static_cast<double>(*goal % width);
+    const double dy = static_cast<double>(cell / width) - static_cast<double>(*goal / width);
+    return std::hypot(dx, dy);
+  };
+  std::vector<double> cost(open_.size(), std::numeric_limits<double>::infinity());
+  std::vector<std::size_t> came_from(open_.size(), kNowhere);
+  Queue queue;
+  cost[*start] = 0.0;
+  queue.push({guess(*start), *start});
+  while (!queue.empty() && queue.top().cell != *goal) {
+    const auto [estimate, cell] = queue.top();
+    queue.pop();
+    if (estimate > cost[cell] + guess(cell)) continue;  // reached on a shorter way since
+    const int column = static_cast<int>(cell % width), row = static_cast<int>(cell / width);
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        if ((dx == 0 && dy == 0) || !is_open(column + dx, row + dy)) continue;
+        const std::size_t next = geometry_.index(column + dx, row + dy);
+        const double reached = cost[cell] + std::hypot(dx, dy);
+        if (reached >= cost[next]) continue;
+        cost[next] = reached;
+        came_from[next] = cell;
+        queue.push({reached + guess(next), next});
+      }
+    }
+  }
+  if (queue.empty()) return std::nullopt;
+  std::vector<Point2> way = trace(*goal, came_from);
+  way.back() = to;
+  return cut_corners(from, std::move(way));
+}
+
+std::vector<Point2> RoutePlanner::trace(std::size_t goal, const std::vector<std::size_t>& from) const {
+  const auto width = static_cast<std::size_t>(geometry_.width);
+  std::vector<Point2> way;
+  for (std::size_t cell = goal; from[cell] != kNowhere; cell = from[cell]) {
+    way.push_back(geometry_.center(static_cast<int>(cell % width), static_cast<int>(cell / width)));
+  }
+  std::reverse(way.begin(), way.end());
+  return way;
+}
+
+std::vector<Point2> RoutePlanner::cut_corners(const Point2& from, std::vector<Point2> way) const {
+  std::vector<Point2> corners;
+  Point2 at = from;
+  for (std::size_t next = 0; next < way.size(); ++next) {
+    // The last cell that is seen from here before one that is not.
+    std::size_t last = next;
+    while (last + 1 < way.size() && sees(at, way[last + 1])) ++last;
+    corners.push_back(way[last]);
+    at = way[last];
+    next = last;
+  }
+  return corners;
+}
+
+}  // namespace cairn

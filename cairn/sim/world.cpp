@@ -1,0 +1,158 @@
+#include "cairn/sim/world.hpp"
+
+#include "cairn/core/errors.hpp"
+#include "cairn/maps/wall_drawing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cairn {
+namespace {
+
+// Walls of buildings lie on multiples of 5 cm: at cell centres, not on the border between cells.
+constexpr double kPlanningResolution_m = 0.05;
+// A cell's centre is up to half a diagonal nearer than what was drawn into it.
+constexpr double kPlanningSlack_m = 0.04;
+constexpr double kMostRanges = 2e9;
+
+struct Walls {
+  std::vector<Wall> solid;
+  std::vector<Wall> map;
+};
+
+void add(const Wall& wall, bool stands, bool on_map, Walls& walls) {
+  if (stands) walls.solid.push_back(wall);
+  if (on_map) walls.map.push_back(wall);
+}
+
+void add_wall(const WorldWallOptions& options, Walls& walls) {
+  const std::string key = "walls." + options.name + ".points";
+  std::vector<Point2> points = parse_points(key, options.points);
+  if (points.size() < (options.closed ? 3U : 2U)) {
+    throw ConfigurationError(
+        key,
+        options.closed ? "is an open polygon: it has fewer than three corners" : "has fewer than two points",
+        "add points x,y, separated by blanks");
+  }
+  if (options.closed) points.push_back(points.front());
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (points[i - 1] == points[i])
+      throw ConfigurationError(key, "names a point twice in a row", "remove one");
+    add({points[i - 1], points[i], material_named(options.material)}, true, options.on_map, walls);
+  }
+}
+
+void add_box(const WorldBoxOptions& o, const Point2& center, bool stands, bool on_map, Walls& walls) {
+  const Pose2 T_map_box{center.x, center.y, o.yaw_rad};
+  const double x = 0.5 * o.width_m, y = 0.5 * o.depth_m;
+  const Point2 corners[] = {T_map_box * Point2{-x, -y}, T_map_box * Point2{x, -y}, T_map_box * Point2{x, y},
+                            T_map_box * Point2{-x, y}};
+  for (int i = 0; i < 4; ++i) {
+    add({corners[i], corners[(i + 1) % 4], material_named(o.material)}, stands, on_map, walls);
+  }
+}
+
+void add_furniture(const WorldBoxOptions& o, Walls& walls) {
+  const std::string key = "furniture." + o.name;
+  const Point2 center = parse_point(key + ".center", o.center);
+  if (o.was_at.empty()) return add_box(o, center, true, o.on_map, walls);
+  add_box(o, center, true, false, walls);
+  add_box(o, parse_point(key + ".was_at", o.was_at), false, o.on_map, walls);
+}
+
+WorldDoor make_door(const WorldDoorOptions& o, Walls& walls) {
+  const std::string key = "doors." + o.name;
+  const Wall leaf{parse_point(key + ".from", o.from), parse_point(key + ".to", o.to), Material::kOpaque};
+  if (leaf.a == leaf.b)
+    throw ConfigurationError(key + ".to", "is where the door begins", "give the leaf a width");
+  add(leaf, false, o.on_map, walls);
+  return {leaf, o.open_s, o.closed_s, o.phase_s};
+}
+
+double distance_to(const Point2& point, const std::vector<Wall>& walls) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Wall& wall : walls) nearest = std::min(nearest, distance(point, wall));
+  return nearest;
+}
+
+void check_start(const WorldRobotOptions& robot, const Pose2& start, const std::vector<Wall>& solid) {
+  const Bounds2 bounds = VectorMap(solid).bounds();
+  const bool outside =
+      start.x < bounds.min.x || start.x > bounds.max.x || start.y < bounds.min.y || start.y > bounds.max.y;
+  if (outside) throw ConfigurationError("robot.start", "lies outside of all walls", "move it inside");
+  const double nearest = distance_to({start.x, start.y}, solid);
+  if (nearest >= robot.radius_m) return;
+  throw ConfigurationError(
+      "robot.start", "lies " + std::to_string(nearest).substr(0, 4) + " m from a wall, in or beside it",
+      "move it at least robot.radius_m (" + std::to_string(robot.radius_m).substr(0, 4) + ") away");
+}
+
+// Free cells at the edge of the drawing are outside: the walls have let the flood through.
+void check_enclosed(const OccupancyGrid& grid) {
+  const GridGeometry& g = grid.geometry();
+  const auto free = [&](int column, int row) { return grid.state(g.index(column, row)) == CellState::kFree; };
+  bool open = false;
+  for (int column = 0; column < g.width; ++column)
+    open = open || free(column, 0) || free(column, g.height - 1);
+  for (int row = 0; row < g.height; ++row) open = open || free(0, row) || free(g.width - 1, row);
+  if (open)
+    throw ConfigurationError("walls", "do not enclose robot.start: there is a way out", "close the outline");
+}
+
+void check_lasers(const WorldOptions& options) {
+  if (options.lasers.empty())
+    throw ConfigurationError("lasers", "is missing: the robot would be blind", "add a laser");
+  if (options.lasers.size() > 9) throw ConfigurationError("lasers", "are more than nine", "remove some");
+  const double duration_s = options.robot.duration_s > 0.0 ? options.robot.duration_s : 600.0;
+  for (const WorldLaserOptions& laser : options.lasers) {
+    const std::string key = "lasers." + laser.name;
+    const Pose2 mount = parse_world_pose(key + ".mount", laser.mount);
+    if (std::hypot(mount.x, mount.y) > options.robot.radius_m) {
+      throw ConfigurationError(key + ".mount", "sticks out of the robot, so that it would run into walls",
+                               "mount it within robot.radius_m");
+    }
+    if (laser.range_max_m <= laser.range_min_m) {
+      throw ConfigurationError(key + ".range_max_m", "is not above range_min_m", "correct one of them");
+    }
+    if (laser.timing.rate_hz * duration_s * laser.beams > kMostRanges) {
+      throw ConfigurationError(key + ".rate_hz", "and beams make more ranges than fit into memory",
+                               "use smaller ones");
+    }
+  }
+}
+
+OccupancyGrid draw(std::vector<Wall> walls, double resolution_m, const Pose2& start) {
+  return draw_walls(VectorMap(std::move(walls)),
+                    {.resolution_m = resolution_m, .seen = kAllMaterials, .inside = {{start.x, start.y}}});
+}
+
+}  // namespace
+
+bool WorldDoor::is_closed(double time_s) const {
+  const double period = open_s + closed_s;
+  return std::fmod(time_s + phase_s, period) >= open_s;
+}
+
+World make_world(const WorldOptions& options, std::span<const Wall> floor) {
+  Walls walls{{floor.begin(), floor.end()}, {floor.begin(), floor.end()}};
+  for (const WorldWallOptions& wall : options.walls) add_wall(wall, walls);
+  for (const WorldBoxOptions& box : options.furniture) add_furniture(box, walls);
+  std::vector<WorldDoor> doors;
+  for (const WorldDoorOptions& door : options.doors) doors.push_back(make_door(door, walls));
+  if (walls.solid.empty() || walls.map.empty()) {
+    throw ConfigurationError("walls", "is empty, or none is on the map",
+                             "name walls, a built_in world, or a file");
+  }
+  check_lasers(options);
+  const Pose2 start = parse_world_pose("robot.start", options.robot.start);
+  check_start(options.robot, start, walls.solid);
+  const OccupancyGrid planning = draw(walls.solid, kPlanningResolution_m, start);
+  check_enclosed(planning);
+  OccupancyGrid map = draw(walls.map, options.map_resolution_m, start);
+  return {options,          std::make_shared<const VectorMap>(std::move(walls.solid)),
+          std::move(map),   RoutePlanner(planning, options.robot.radius_m + kPlanningSlack_m),
+          std::move(doors), start};
+}
+
+}  // namespace cairn
