@@ -14,6 +14,15 @@ using nlohmann::json;
 // Names as the user wrote them rather than absolute paths: the same on another machine.
 std::string file_name(const std::string& path) { return fs::path(path).filename().string(); }
 
+// Whether the outcome of that name is of the kind.
+bool is_outcome(const std::string& name, bool (*is_kind)(Outcome)) {
+  for (std::size_t k = 0; k < kOutcomeCount; ++k) {
+    const auto outcome = static_cast<Outcome>(k);
+    if (name == to_string(outcome)) return is_kind(outcome);
+  }
+  return false;
+}
+
 void add_outcomes(const json& metrics, CellResult& result) {
   for (const json& stream : metrics["log"]["streams"]) {
     if (stream["kind"] == "odometry") continue;
@@ -22,8 +31,8 @@ void add_outcomes(const json& metrics, CellResult& result) {
     for (const auto& [outcome, count] : metrics["outcomes"][name].items()) {
       const auto n = count.get<double>();
       total += n;
-      if (outcome.rfind("used", 0) == 0) used += n;
-      if (outcome.rfind("dropped", 0) == 0) dropped += n;
+      if (is_outcome(outcome, is_use)) used += n;
+      if (is_outcome(outcome, is_drop)) dropped += n;
     }
     if (total <= 0.0) continue;
     result.metrics["drop_rate." + name] = dropped / total;
@@ -85,6 +94,7 @@ std::vector<std::string> localize_arguments(const Campaign& campaign, const Camp
   } else {
     add({"--init", input.start, "--init-error", input.start_error});
   }
+  if (input.live) add({"--live"});
   add({"--seed", std::to_string(cell.seed), "--threads", "1"});
   return words;
 }
@@ -93,9 +103,10 @@ std::string cell_id(const Campaign& campaign, const CampaignCell& cell, const Ce
   const CampaignInput& input = campaign.inputs[cell.input];
   const CellSettings settings = settings_of(campaign, cell);
   Fingerprint fingerprint;
-  for (const std::string& name : {input.name, cell.recipe, campaign.parameters[cell.parameters].name,
-                                  cell.variant, std::to_string(cell.seed), input.start, input.start_error,
-                                  fmt::format("{}", campaign.rpe_delta_m), recording.id}) {
+  for (const std::string& name :
+       {input.name, cell.recipe, campaign.parameters[cell.parameters].name, cell.variant,
+        std::to_string(cell.seed), input.start, input.start_error, std::string(input.live ? "live" : ""),
+        fmt::format("{}", campaign.rpe_delta_m), recording.id}) {
     fingerprint.add(name);
   }
   for (const std::string& setting : settings.set) fingerprint.add(setting);

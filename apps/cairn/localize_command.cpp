@@ -17,6 +17,7 @@
 #include "cairn/io/trajectory_reader.hpp"
 #include "cairn/maps/checksum.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <iostream>
@@ -36,6 +37,7 @@ struct Arguments {
   std::string init;
   std::string init_error = "0,0,0";
   bool global = false;
+  bool live = false;
   std::string reference;
   std::string seed = "1";
   int threads = 1;
@@ -69,7 +71,14 @@ std::vector<Time> scan_stamps(const Log& log) {
   for (const Event& event : log.events) {
     if (log.streams[event.stream].kind == StreamKind::kLaserScan) stamps.push_back(event.stamp);
   }
+  std::sort(stamps.begin(), stamps.end());  // of several lasers, or in the order of arrival
   return stamps;
+}
+
+// As the robot heard of them.
+void sort_by_arrival(std::vector<Event>& events) {
+  std::stable_sort(events.begin(), events.end(),
+                   [](const Event& a, const Event& b) { return a.arrival < b.arrival; });
 }
 
 // Before the work of a long run, not after it.
@@ -93,7 +102,7 @@ Inputs read_inputs(const Arguments& arguments) {
   inputs.options = read_options(arguments, inputs.diagnostics);
   inputs.map = read_map(arguments.map, inputs.diagnostics);
   inputs.log = read_log(arguments.log);
-  sort_by_stamp(inputs.log);
+  arguments.live ? sort_by_arrival(inputs.log.events) : void(sort_by_stamp(inputs.log));
   if (!arguments.reference.empty()) {
     const std::vector<Time> stamps = scan_stamps(inputs.log);
     inputs.reference = read_trajectory(arguments.reference, {.frame_stamps = stamps}, inputs.diagnostics);
@@ -251,6 +260,9 @@ void add_localize(CLI::App& program, Runner& run) {
       "--init", a->init, "Start pose x,y,yaw in the map (m, rad), or `reference`: where that begins");
   command->add_option("--init-error", a->init_error, "x,y,yaw added to the start pose (m, rad)")->needs(init);
   command->add_flag("--global", a->global, "Start anywhere free (the default)")->excludes(init);
+  command->add_flag(
+      "--live", a->live,
+      "Take the messages in the order of their arrival, as the robot did (default: of their stamps)");
   command->add_option("--reference", a->reference,
                       "Trajectory taken as true: adds the accuracy to the results");
   command->add_option("--seed", a->seed, "Of all random numbers")->capture_default_str();

@@ -136,6 +136,7 @@ void CampaignInput::visit(OptionVisitor& v) {
            {0.0, kLongest_s});
   v.text({"start", "reference, global, or x,y,yaw (m, rad)"}, start);
   v.text({"start_error", "x,y,yaw added to the start pose (m, rad)"}, start_error);
+  v.flag({"live", "Messages in the order of their arrival, as `cairn localize --live`"}, live);
   settings.visit(v);
 }
 

@@ -29,6 +29,7 @@ struct CampaignInput {
   double duration_s = 0.0;          ///< of the simulation; 0: as the world says
   std::string start = "reference";  ///< "reference", "global", or x,y,yaw (m, rad)
   std::string start_error = "0,0,0";
+  bool live = false;  ///< messages in the order of arrival
   CampaignSettings settings;
 
   void visit(OptionVisitor& visitor);

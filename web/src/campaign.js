@@ -20,12 +20,13 @@ function select(label, names, change) {
 function makeChoices(data) {
   const inputs = [...new Set(data.results.map((result) => result.input))];
   const metrics = [...data.columns, ...Object.keys(data.styles).filter((name) => !data.columns.includes(name))];
-  const choice = { metric: metrics[0], input: inputs[0] };
+  const choice = { metric: metrics.includes('ate_mean_m') ? 'ate_mean_m' : metrics[0], input: inputs[0] };
   const choose = (key) => (value) => {
     choice[key] = value;
     onThemeChange.notify();
   };
   byId('choices').append(select('Metric', metrics, choose('metric')), select('Input', inputs, choose('input')));
+  byId('choices').querySelector('select').value = choice.metric;
   return choice;
 }
 
