@@ -6,6 +6,7 @@
 #include "cairn/io/carmen_writer.hpp"
 #include "cairn/io/configuration.hpp"
 #include "cairn/io/map_yaml.hpp"
+#include "cairn/io/mcap_log_writer.hpp"
 #include "cairn/io/tum_trajectory.hpp"
 #include "cairn/sim/world_recording.hpp"
 
@@ -60,6 +61,10 @@ WorldRecording record(const Arguments& arguments, const World& world, std::uint6
   return recording;
 }
 
+void write_log(const std::filesystem::path& path, const Log& log) {
+  path.extension() == ".mcap" ? write_mcap_log(path, log) : write_carmen_log(path, log);
+}
+
 int print_world(const Arguments& arguments, std::uint64_t seed) {
   WorldOptions options = read_world_options(arguments.world, settings_of(arguments), seed);
   std::cout << write_configuration([&](OptionVisitor& v) { options.visit(v); });
@@ -73,7 +78,7 @@ int run_simulate(const Arguments& arguments) {
   const std::filesystem::path log = arguments.out;
   const World world = read_world(arguments.world, settings_of(arguments), seed);
   WorldRecording recording = record(arguments, world, seed);
-  write_carmen_log(log, {"", recording.streams, std::move(recording.events), {}});
+  write_log(log, {"", recording.streams, std::move(recording.events), {}});
   write_tum(beside(log, ".truth.tum"), recording.truth);
   write_map(beside(log, ".map.yaml"), world.map);
   const Pose2& start = recording.truth.front().pose;
@@ -94,9 +99,9 @@ void add_simulate(CLI::App& program, Runner& run) {
       ->add_option("WORLD", a->world,
                    "office, cross, hall, corridor, warehouse, or a world file (YAML; see docs/worlds.md)")
       ->required();
-  command->add_option(
-      "--out", a->out,
-      "The log to write (CARMEN text); truth (.truth.tum) and map (.map.yaml, .map.png) go beside it");
+  command->add_option("--out", a->out,
+                      "The log to write (.mcap: MCAP, else CARMEN text); truth (.truth.tum) and map "
+                      "(.map.yaml, .map.png) go beside it");
   command->add_option("--set", a->settings, "key=value, over the world; may be repeated");
   command->add_option("--seed", a->seed, "Of the people, the mission and all noise; and of the office")
       ->capture_default_str();

@@ -65,6 +65,14 @@ class Simulate(unittest.TestCase):
         self.assertEqual((self.folder / "a.log").read_bytes(), (self.folder / "b.log").read_bytes())
         self.assertEqual((self.folder / "a.map.png").read_bytes(), (self.folder / "b.map.png").read_bytes())
 
+    def test_an_mcap_log_keeps_the_names(self):
+        (self.folder / "w.yaml").write_text(WORLD)
+        result = self.simulate("w.yaml", "--out", "w.mcap")
+        self.assertEqual(result.returncode, OK, result.stderr)
+        info = subprocess.run([PROGRAM, "log", "info", "w.mcap"], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(info.returncode, OK, info.stderr)
+        self.assertIn("front", info.stdout)
+
     def test_a_floor_from_a_file(self):
         (self.folder / "floor.txt").write_text("0,0,8,0\n8,0,8,6\n8,6,0,6\n0,6,0,0\n")
         text = "file: floor.txt\n" + WORLD[WORLD.index("robot:"):]
