@@ -27,5 +27,6 @@ void add_replay(CLI::App& program, Runner& run);
 void add_report(CLI::App& program, Runner& run);
 void add_score(CLI::App& program, Runner& run);
 void add_simulate(CLI::App& program, Runner& run);
+void add_tune(CLI::App& program, Runner& run);
 
 }  // namespace cairn::app

@@ -32,7 +32,7 @@ namespace {
 struct Arguments {
   std::string map;
   std::string log;
-  std::string config;
+  std::vector<std::string> configs;
   std::vector<std::string> settings;
   std::string init;
   std::string init_error = "0,0,0";
@@ -58,8 +58,8 @@ struct Inputs {
 LocalizerOptions read_options(const Arguments& arguments, Diagnostics& diagnostics) {
   LocalizerOptions options;
   const VisitOptions visit = [&](OptionVisitor& visitor) { options.visit(visitor); };
-  if (!arguments.config.empty()) {
-    read_configuration(*open_input(arguments.config), arguments.config, visit, diagnostics);
+  for (const std::string& config : arguments.configs) {
+    read_configuration(*open_input(config), config, visit, diagnostics);
   }
   apply_settings(arguments.settings, visit);
   options.validate();
@@ -254,7 +254,9 @@ void add_localize(CLI::App& program, Runner& run) {
   command->add_option("--map", a->map, "Map (map_server YAML, Wean)")->required();
   command->add_option("--log", a->log, "Recording (CARMEN, ROS 1 or ROS 2 bag, MCAP, Wean, MRPT text)")
       ->required();
-  command->add_option("--config", a->config, "Configuration (YAML; see `cairn config`; nav2 AMCL files too)");
+  command->add_option(
+      "--config", a->configs,
+      "Configuration (YAML; see `cairn config`; nav2 AMCL files too); of several the later win");
   command->add_option("--set", a->settings, "key=value, over the configuration; may be repeated");
   auto* init = command->add_option(
       "--init", a->init, "Start pose x,y,yaw in the map (m, rad), or `reference`: where that begins");

@@ -50,6 +50,7 @@ int main(int argc, char** argv) {
   cairn::app::add_report(program, run);
   cairn::app::add_score(program, run);
   cairn::app::add_simulate(program, run);
+  cairn::app::add_tune(program, run);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/cairn/posed_scans.hpp"
 #include "cairn/core/trajectory.hpp"
 #include "cairn/io/log.hpp"
 #include "cairn/maps/grid_builder.hpp"
@@ -12,11 +13,7 @@ namespace cairn::app {
 
 struct MapBuildingOptions {
   GridBuilderOptions grid;
-  std::string stream;                    ///< of the scans; may be empty if the log has one laser stream only
-  std::optional<Pose2> T_base_sensor;    ///< mounting pose; none: as the log tells it
-  bool trajectory_is_of_sensor = false;  ///< else it is of the base
-  /// Poses are interpolated at the scans' stamps, but not between poses further apart than this.
-  double max_gap_s = 1.0;
+  PosedScanOptions scans;
 };
 
 struct BuiltMap {
@@ -25,10 +22,6 @@ struct BuiltMap {
   std::size_t scans_without_pose = 0;    ///< outside the trajectory or in one of its gaps
   std::size_t scans_without_return = 0;  ///< no valid beam
 };
-
-/// Index of the laser stream named `name`, or of the only one if `name` is empty.
-/// @throws ConfigurationError naming the streams there are; InputError if the log has no laser
-StreamId laser_stream(const Log& log, const std::string& name);
 
 /// Stamps of one stream's events, in the order of the log: the frames that a numbered path counts.
 std::vector<Time> stamps_of(const Log& log, StreamId stream);

@@ -35,8 +35,8 @@ MapBuildingOptions options() {
   MapBuildingOptions o;
   o.grid.resolution_m = 0.1;
   o.grid.uncleared_m = 0.0;
-  o.T_base_sensor = Pose2{0.5, 0.0, 0.0};
-  o.max_gap_s = 10.0;
+  o.scans.T_base_sensor = Pose2{0.5, 0.0, 0.0};
+  o.scans.max_gap_s = 10.0;
   return o;
 }
 
@@ -53,14 +53,14 @@ TEST(BuildMap, PutsEveryScanWhereThePathSays) {
 
 TEST(BuildMap, APathOfTheSensorNeedsNoMount) {
   MapBuildingOptions o = options();
-  o.trajectory_is_of_sensor = true;
+  o.scans.trajectory_is_of_sensor = true;
   const BuiltMap map = build_map(five_scans(), from_0_to_4(), o, no_progress);
   EXPECT_EQ(map.grid.state_at({2.05, 0.05}), CellState::kOccupied);
 }
 
 TEST(BuildMap, TakesTheMountOfTheLogOrAsksForOne) {
   MapBuildingOptions o = options();
-  o.T_base_sensor = std::nullopt;
+  o.scans.T_base_sensor = std::nullopt;
   Log log = five_scans();
   EXPECT_THROW(build_map(log, from_0_to_4(), o, no_progress), ConfigurationError);
   log.streams[1].T_base_sensor = Pose2{0.5, 0, 0};
@@ -69,7 +69,7 @@ TEST(BuildMap, TakesTheMountOfTheLogOrAsksForOne) {
 
 TEST(BuildMap, CountsScansWithoutPose) {
   MapBuildingOptions o = options();
-  o.max_gap_s = 1.0;  // the two poses are 4 s apart: only the scans at their very stamps have one
+  o.scans.max_gap_s = 1.0;  // the two poses are 4 s apart: only the scans at their very stamps have one
   const BuiltMap map = build_map(five_scans(), from_0_to_4(), o, no_progress);
   EXPECT_EQ(map.scans_used, 2u);
   EXPECT_EQ(map.scans_without_pose, 3u);

@@ -2,7 +2,7 @@
 #include "apps/cairn/map_building.hpp"
 #include "apps/cairn/map_convert.hpp"
 #include "apps/cairn/output_file.hpp"
-#include "apps/cairn/pose_option.hpp"
+#include "apps/cairn/posed_scan_arguments.hpp"
 #include "apps/cairn/progress.hpp"
 #include "cairn/core/errors.hpp"
 #include "cairn/io/log_reader.hpp"
@@ -26,8 +26,8 @@ using Json = nlohmann::ordered_json;
 constexpr int kProgressSteps = 1000;
 
 struct BuildArguments {
-  std::string log, trajectory, stream, mount, out;
-  std::string frame = "base";
+  std::string log, trajectory, out;
+  PosedScanArguments scans;
   MapBuildingOptions options;
 };
 
@@ -42,13 +42,7 @@ void warn_of(const std::string& path, const Diagnostics& diagnostics) {
 
 MapBuildingOptions options_of(const BuildArguments& arguments) {
   MapBuildingOptions options = arguments.options;
-  options.stream = arguments.stream;
-  if (!arguments.mount.empty()) options.T_base_sensor = parse_pose("--mount", arguments.mount);
-  if (arguments.frame != "base" && arguments.frame != "sensor") {
-    throw ConfigurationError("--trajectory-frame", "'" + arguments.frame + "' is not known",
-                             "use base or sensor");
-  }
-  options.trajectory_is_of_sensor = arguments.frame == "sensor";
+  options.scans = arguments.scans.options();
   return options;
 }
 
@@ -73,7 +67,7 @@ int run_build(const BuildArguments& arguments) {
   prepare_output_file(arguments.out);
   const Log log = read_log(arguments.log);
   warn_of(arguments.log, log.diagnostics);
-  const Trajectory path = read_path(arguments, log, laser_stream(log, options.stream));
+  const Trajectory path = read_path(arguments, log, laser_stream(log, options.scans.stream));
   const BuiltMap map = build_with_progress(log, path, options);
   if (map.scans_without_pose > 0) {
     spdlog::warn("{} of {} scans have no pose in the trajectory and were left out", map.scans_without_pose,
@@ -155,11 +149,7 @@ void add_build(CLI::App& parent, Runner& run) {
       ->required();
   command->add_option("--trajectory", a->trajectory, "Poses in the map, in the log's clock")->required();
   command->add_option("--out", a->out, "Map to write: NAME.yaml; its picture becomes NAME.png")->required();
-  command->add_option("--stream", a->stream, "Laser stream, where the log has several");
-  command->add_option("--mount", a->mount,
-                      "x,y,yaw (m, rad) of the laser on the robot, where the log tells none");
-  command->add_option("--trajectory-frame", a->frame, "Whose poses the trajectory holds: base or sensor")
-      ->capture_default_str();
+  add_posed_scan_options(*command, a->scans);
   command->add_option("--resolution", grid.resolution_m, "Cell size, m")->capture_default_str();
   command->add_option("--max-range", grid.max_range_m, "Use beams up to here, m");
   command
@@ -167,9 +157,6 @@ void add_build(CLI::App& parent, Runner& run) {
                    "Occupied if this share of the scans that see a cell end in it")
       ->capture_default_str();
   command->add_option("--min-observations", grid.min_observations, "Scans that must have seen a cell")
-      ->capture_default_str();
-  command
-      ->add_option("--max-gap-s", a->options.max_gap_s, "Do not interpolate between poses further apart, s")
       ->capture_default_str();
   command->callback([a, &run] {
     // A cell that is not occupied is free: the two shares only differ where a program sets them apart.
