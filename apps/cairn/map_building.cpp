@@ -61,4 +61,15 @@ BuiltMap build_map(const Log& log, const Trajectory& trajectory, const MapBuildi
   return {builder.build(), counts.used, counts.without_pose, counts.without_return};
 }
 
+NdtMap build_ndt(const Log& log, const Trajectory& trajectory, const MapBuildingOptions& options,
+                 const NdtMapOptions& ndt) {
+  std::vector<NdtScan> scans;
+  for (const PosedScan& posed : pose_scans(log, trajectory, options.scans).scans) {
+    std::vector<Point2> points = end_points(*posed.scan);
+    std::erase_if(points, [&](const Point2& p) { return std::hypot(p.x, p.y) > options.grid.max_range_m; });
+    scans.push_back({posed.T_map_sensor, std::move(points)});
+  }
+  return ndt_from_scans(scans, ndt);
+}
+
 }  // namespace cairn::app

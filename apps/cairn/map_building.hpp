@@ -4,6 +4,7 @@
 #include "cairn/core/trajectory.hpp"
 #include "cairn/io/log.hpp"
 #include "cairn/maps/grid_builder.hpp"
+#include "cairn/maps/ndt_map.hpp"
 
 #include <functional>
 #include <optional>
@@ -32,5 +33,11 @@ std::vector<Time> stamps_of(const Log& log, StreamId stream);
 /// pose
 BuiltMap build_map(const Log& log, const Trajectory& trajectory, const MapBuildingOptions& options,
                    const std::function<void(double)>& progress);
+
+/// The walls of the scans as normal distributions, with their occupancies (ONDT). Beams beyond
+/// `options.grid.max_range_m` are left out.
+/// @throws as build_map
+NdtMap build_ndt(const Log& log, const Trajectory& trajectory, const MapBuildingOptions& options,
+                 const NdtMapOptions& ndt);
 
 }  // namespace cairn::app

@@ -1,6 +1,7 @@
 #include "apps/cairn/commands.hpp"
 #include "apps/cairn/map_building.hpp"
 #include "apps/cairn/map_convert.hpp"
+#include "apps/cairn/ndt_output.hpp"
 #include "apps/cairn/output_file.hpp"
 #include "apps/cairn/posed_scan_arguments.hpp"
 #include "apps/cairn/progress.hpp"
@@ -29,6 +30,7 @@ struct BuildArguments {
   std::string log, trajectory, out;
   PosedScanArguments scans;
   MapBuildingOptions options;
+  NdtMapOptions ndt;
 };
 
 struct InfoArguments {
@@ -68,6 +70,10 @@ int run_build(const BuildArguments& arguments) {
   const Log log = read_log(arguments.log);
   warn_of(arguments.log, log.diagnostics);
   const Trajectory path = read_path(arguments, log, laser_stream(log, options.scans.stream));
+  if (std::filesystem::path(arguments.out).extension() == ".ndt") {
+    write_ndt_map(arguments.out, build_ndt(log, path, options, arguments.ndt));
+    return kOk;
+  }
   const BuiltMap map = build_with_progress(log, path, options);
   if (map.scans_without_pose > 0) {
     spdlog::warn("{} of {} scans have no pose in the trajectory and were left out", map.scans_without_pose,
@@ -132,6 +138,10 @@ int run_info(const InfoArguments& arguments) {
   Diagnostics diagnostics;
   const AnyMap map = read_any_map(arguments.map, diagnostics);
   warn_of(arguments.map, diagnostics);
+  if (const auto* ndt = std::get_if<std::shared_ptr<const NdtMap>>(&map)) {
+    std::cout << describe(**ndt, arguments.json);
+    return kOk;
+  }
   if (const auto* walls = std::get_if<std::shared_ptr<const VectorMap>>(&map)) {
     std::cout << describe(**walls, arguments.json);
     return kOk;
@@ -148,9 +158,14 @@ void add_build(CLI::App& parent, Runner& run) {
   command->add_option("--log", a->log, "Log with laser scans (CARMEN, Wean, MRPT text, ROS 1 bag)")
       ->required();
   command->add_option("--trajectory", a->trajectory, "Poses in the map, in the log's clock")->required();
-  command->add_option("--out", a->out, "Map to write: NAME.yaml; its picture becomes NAME.png")->required();
+  command
+      ->add_option(
+          "--out", a->out,
+          "Map to write: NAME.yaml (its picture becomes NAME.png), or NAME.ndt: normal distributions")
+      ->required();
   add_posed_scan_options(*command, a->scans);
   command->add_option("--resolution", grid.resolution_m, "Cell size, m")->capture_default_str();
+  command->add_option("--ndt-cell", a->ndt.cell_size_m, "Cell size of NAME.ndt, m")->capture_default_str();
   command->add_option("--max-range", grid.max_range_m, "Use beams up to here, m");
   command
       ->add_option("--occupied-share", grid.occupied_share,

@@ -1,5 +1,6 @@
 #include "apps/cairn/map_convert.hpp"
 
+#include "apps/cairn/ndt_output.hpp"
 #include "apps/cairn/output_file.hpp"
 #include "cairn/core/errors.hpp"
 #include "cairn/io/geojson.hpp"
@@ -28,6 +29,7 @@ struct ConvertArguments {
   std::vector<std::string> inside;
   WallDrawingOptions drawing;
   WallExtractionOptions extraction;
+  NdtMapOptions ndt;
 };
 
 using Grid = std::shared_ptr<const OccupancyGrid>;
@@ -45,12 +47,15 @@ Point2 parse_point(const std::string& text) {
   return p;
 }
 
-bool wants_walls(const std::filesystem::path& path) {
+enum class Kind { kGrid, kWalls, kNdt };
+
+Kind wanted_kind(const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
-  if (extension == ".geojson" || extension == ".json") return true;
-  if (extension == ".yaml" || extension == ".yml") return false;
+  if (extension == ".geojson" || extension == ".json") return Kind::kWalls;
+  if (extension == ".yaml" || extension == ".yml") return Kind::kGrid;
+  if (extension == ".ndt") return Kind::kNdt;
   throw ConfigurationError(path.string(), "has no known extension",
-                           "name it .geojson for a vector map, .yaml for a grid");
+                           "name it .geojson for a vector map, .yaml for a grid, .ndt for an NDT map");
 }
 
 void write_walls(const std::string& path, const VectorMap& map) {
@@ -70,8 +75,28 @@ void write_grid(const std::string& path, const OccupancyGrid& grid) {
   }
 }
 
+void convert(const AnyMap& map, Kind to, const ConvertArguments& arguments) {
+  const auto* grid = std::get_if<Grid>(&map);
+  const auto* walls = std::get_if<Walls>(&map);
+  if (grid == nullptr && walls == nullptr) {
+    throw InputError(arguments.from, "is an NDT map, which cannot be converted",
+                     "convert what it was made of");
+  }
+  if (to == Kind::kWalls) {
+    write_walls(arguments.to, walls != nullptr ? **walls : extract_walls(**grid, arguments.extraction));
+    return;
+  }
+  const Grid as_grid =
+      grid != nullptr ? *grid : std::make_shared<const OccupancyGrid>(draw_walls(**walls, arguments.drawing));
+  if (to == Kind::kGrid) {
+    write_grid(arguments.to, *as_grid);
+  } else {
+    write_ndt_map(arguments.to, ndt_from_grid(*as_grid, arguments.ndt));
+  }
+}
+
 int run_convert(ConvertArguments arguments) {
-  const bool to_walls = wants_walls(arguments.to);
+  const Kind to = wanted_kind(arguments.to);
   for (const std::string& point : arguments.inside) arguments.drawing.inside.push_back(parse_point(point));
   prepare_output_file(arguments.to);
   Diagnostics diagnostics;
@@ -79,13 +104,7 @@ int run_convert(ConvertArguments arguments) {
   for (const auto& [kind, count] : diagnostics.counts()) {
     spdlog::warn("{}: {} ({} times)", arguments.from, kind, count);
   }
-  const auto* grid = std::get_if<Grid>(&map);
-  const auto* walls = std::get_if<Walls>(&map);
-  if (to_walls) {
-    write_walls(arguments.to, walls != nullptr ? **walls : extract_walls(**grid, arguments.extraction));
-  } else {
-    write_grid(arguments.to, grid != nullptr ? **grid : draw_walls(**walls, arguments.drawing));
-  }
+  convert(map, to, arguments);
   return kOk;
 }
 
@@ -97,10 +116,13 @@ void add_map_convert(CLI::App& parent, Runner& run) {
   auto a = std::make_shared<ConvertArguments>();
   command->add_option("FROM", a->from, "Map to read (map_server YAML, Wean, x1,y1,x2,y2 text, GeoJSON)")
       ->required();
-  command->add_option("TO", a->to, "Map to write: NAME.geojson or NAME.yaml (its picture becomes NAME.png)")
+  command
+      ->add_option("TO", a->to,
+                   "Map to write: NAME.geojson, NAME.yaml (its picture becomes NAME.png) or NAME.ndt")
       ->required();
   command->add_option("--resolution", a->drawing.resolution_m, "Cell size of a drawn grid, m")
       ->capture_default_str();
+  command->add_option("--ndt-cell", a->ndt.cell_size_m, "Cell size of an NDT map, m")->capture_default_str();
   command->add_option("--margin", a->drawing.margin_m, "Unknown cells around the walls of a drawn grid, m")
       ->capture_default_str();
   command->add_option("--inside", a->inside,

@@ -5,6 +5,7 @@
 #include "cairn/io/gray_image.hpp"
 #include "cairn/io/input_file.hpp"
 #include "cairn/io/map_yaml.hpp"
+#include "cairn/io/ndt_file.hpp"
 #include "cairn/io/vector_text.hpp"
 #include "cairn/io/wean_map.hpp"
 #include "cairn/maps/wall_drawing.hpp"
@@ -71,6 +72,7 @@ AnyMap read_any_map(const std::filesystem::path& path, Diagnostics& diagnostics)
     throw InputError(path.string(), "is a bare picture without scale and place", "name the map's .yaml file");
   }
   if (looks_like_wean_map(start)) return share(read_wean_map(*input, path.string()));
+  if (looks_like_ndt(start)) return read_ndt(*input, path.string());
   if (looks_like_geojson(start)) return share(read_geojson(*input, path.string(), diagnostics));
   if (looks_like_vector_text(start)) return share(read_vector_text(*input, path.string(), diagnostics));
   return share(read_yaml_map(*input, path, diagnostics));
@@ -79,6 +81,9 @@ AnyMap read_any_map(const std::filesystem::path& path, Diagnostics& diagnostics)
 std::shared_ptr<const OccupancyGrid> read_map(const std::filesystem::path& path, Diagnostics& diagnostics) {
   const AnyMap map = read_any_map(path, diagnostics);
   if (const auto* grid = std::get_if<std::shared_ptr<const OccupancyGrid>>(&map)) return *grid;
+  if (std::holds_alternative<std::shared_ptr<const NdtMap>>(map)) {
+    throw InputError(path.string(), "is an NDT map; a grid is needed here", "name the grid beside it");
+  }
   throw InputError(path.string(), "is a vector map; a grid is needed here",
                    "make one with `cairn map convert`");
 }
@@ -89,14 +94,15 @@ std::shared_ptr<const OccupancyGrid> read_map(const std::filesystem::path& path)
 }
 
 std::shared_ptr<MapSet> read_map_set(const std::filesystem::path& path, Diagnostics& diagnostics) {
-  const AnyMap map = read_any_map(path, diagnostics);
-  if (const auto* grid = std::get_if<std::shared_ptr<const OccupancyGrid>>(&map)) {
-    return std::make_shared<MapSet>(*grid);
-  }
-  const auto& walls = std::get<std::shared_ptr<const VectorMap>>(map);
-  auto maps = std::make_shared<MapSet>(draw(*walls));
-  maps->add(walls);
+  auto maps = std::make_shared<MapSet>();
+  add_map(path, *maps, diagnostics);
   return maps;
+}
+
+void add_map(const std::filesystem::path& path, MapSet& maps, Diagnostics& diagnostics) {
+  std::visit([&](const auto& map) { maps.add(map); }, read_any_map(path, diagnostics));
+  const auto walls = maps.find<VectorMap>();
+  if (walls && !maps.find<OccupancyGrid>()) maps.add(draw(*walls));
 }
 
 }  // namespace cairn

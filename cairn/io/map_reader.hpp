@@ -2,6 +2,7 @@
 
 #include "cairn/core/diagnostics.hpp"
 #include "cairn/maps/map_set.hpp"
+#include "cairn/maps/ndt_map.hpp"
 #include "cairn/maps/occupancy_grid.hpp"
 #include "cairn/maps/vector_map.hpp"
 
@@ -19,14 +20,18 @@ namespace cairn {
 std::shared_ptr<const OccupancyGrid> read_map(const std::filesystem::path& path, Diagnostics& diagnostics);
 std::shared_ptr<const OccupancyGrid> read_map(const std::filesystem::path& path);
 
-using AnyMap = std::variant<std::shared_ptr<const OccupancyGrid>, std::shared_ptr<const VectorMap>>;
+using AnyMap = std::variant<std::shared_ptr<const OccupancyGrid>, std::shared_ptr<const VectorMap>,
+                            std::shared_ptr<const NdtMap>>;
 
-/// Reads an occupancy map, or a vector map (`x1,y1,x2,y2` text, GeoJSON): told by content.
+/// Reads an occupancy map, a vector map (`x1,y1,x2,y2` text, GeoJSON) or an NDT map: told by content.
 /// @throws InputError as read_map
 AnyMap read_any_map(const std::filesystem::path& path, Diagnostics& diagnostics);
 
 /// The same as a set of maps for a localizer. A vector map comes with the grid that is drawn from it
 /// (draw_walls, 5 cm; coarser if that would be more than 10^8 cells).
 std::shared_ptr<MapSet> read_map_set(const std::filesystem::path& path, Diagnostics& diagnostics);
+
+/// Gives a set one more representation of the same place, in the same frame.
+void add_map(const std::filesystem::path& path, MapSet& maps, Diagnostics& diagnostics);
 
 }  // namespace cairn

@@ -138,6 +138,14 @@ TEST(ToGrid, RawTakesTheNumbers) {
   EXPECT_THAT(to_grid(image, description(Mode::kRaw)).cells(), ElementsAre(0, 100, kUnknown, kUnknown));
 }
 
+TEST(ToGrid, RefusesMoreCellsThanAMapMayHave) {
+  const GrayImage image{65536, 65536, {}, {}};
+  MapDescription map;
+  map.image = "huge.pgm";
+  map.resolution_m = 0.05;
+  EXPECT_THROW(to_grid(image, map), InputError);
+}
+
 TEST(ToGrid, ClearPixelsAreUnknown) {
   const GrayImage image{2, 1, {0, 0}, {255, 254}};
   EXPECT_THAT(to_grid(image, description(Mode::kTrinary)).cells(), ElementsAre(100, kUnknown));

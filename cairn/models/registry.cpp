@@ -11,6 +11,9 @@
 namespace cairn {
 namespace {
 
+// A distribution is felt in its own cell only: cells must be wider than the noise.
+constexpr double kCellSigmas = 2.5;
+
 struct LaserModelEntry {
   const char* name;
   std::shared_ptr<const LaserModel> (*make)(const LaserModelParts& parts);
@@ -19,6 +22,14 @@ struct LaserModelEntry {
 std::shared_ptr<const DistanceField> distance_field(const MapSet& maps, double max_distance_m) {
   return maps.derive<DistanceField>(std::to_string(max_distance_m), [&] {
     return std::make_shared<const DistanceField>(*maps.grid(), max_distance_m);
+  });
+}
+
+// The map that was given, else the walls of the grid.
+std::shared_ptr<const NdtMap> ndt_map(const MapSet& maps, double cell_size_m) {
+  if (auto given = maps.find<NdtMap>()) return given;
+  return maps.derive<NdtMap>(std::to_string(cell_size_m), [&] {
+    return std::make_shared<const NdtMap>(ndt_from_grid(*maps.grid(), {.cell_size_m = cell_size_m}));
   });
 }
 
@@ -47,11 +58,20 @@ std::shared_ptr<const LaserModel> make_beam(const LaserModelParts& parts) {
   return std::make_shared<const BeamModel>(marcher, parts.T_base_sensor, parts.limits, parts.options.beam);
 }
 
+template <NdtKind kind>
+std::shared_ptr<const LaserModel> make_ndt_model(const LaserModelParts& parts) {
+  const NdtModelOptions& options = parts.options.ndt;
+  return std::make_shared<const NdtModel>(ndt_map(parts.maps, options.cell_size_m), kind, parts.T_base_sensor,
+                                          parts.limits, options);
+}
+
 // The one table of names: a new sensor model of laser scans is one line here.
 constexpr LaserModelEntry kLaserModels[] = {
     {"likelihood_field_prob", make_likelihood_field_prob},
     {"likelihood_field", make_likelihood_field},
     {"beam", make_beam},
+    {"ndt", make_ndt_model<NdtKind::kNdt>},
+    {"ondt", make_ndt_model<NdtKind::kOndt>},
 };
 
 }  // namespace
@@ -62,6 +82,8 @@ void LaserModelOptions::visit(OptionVisitor& v) {
   likelihood_field.visit(v);
   v.section({"beam", "model beam: mixture on the range that the map predicts"},
             [this](OptionVisitor& inner) { beam.visit(inner); });
+  v.section({"ndt", "models ndt and ondt: normal distributions of the walls"},
+            [this](OptionVisitor& inner) { ndt.visit(inner); });
 }
 
 void LaserModelOptions::validate() const {
@@ -75,6 +97,9 @@ LaserModelOptions widened(LaserModelOptions options, double sigma_hit_m, double 
   options.likelihood_field.effective_beams = effective_beams;
   options.beam.sigma_hit_m = sigma_hit_m;
   options.beam.effective_beams = effective_beams;
+  options.ndt.sigma_hit_m = sigma_hit_m;
+  options.ndt.effective_beams = effective_beams;
+  options.ndt.cell_size_m = std::max(options.ndt.cell_size_m, kCellSigmas * sigma_hit_m);
   return options;
 }
 

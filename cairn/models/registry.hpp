@@ -6,6 +6,7 @@
 #include "cairn/models/sensor/beam_selection.hpp"
 #include "cairn/models/sensor/laser_model.hpp"
 #include "cairn/models/sensor/likelihood_field.hpp"
+#include "cairn/models/sensor/ndt_model.hpp"
 
 #include <memory>
 #include <string>
@@ -18,6 +19,7 @@ struct LaserModelOptions {
   std::string model = "likelihood_field_prob";  ///< name in the registry, unless a stream names its own
   LikelihoodFieldOptions likelihood_field;      ///< likelihood_field_prob and likelihood_field
   BeamModelOptions beam;
+  NdtModelOptions ndt;  ///< ndt and ondt
 
   void visit(OptionVisitor& visitor);
   /// @throws ConfigurationError for values that do not fit each other

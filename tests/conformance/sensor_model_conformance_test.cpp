@@ -108,15 +108,54 @@ TEST_P(LaserModelLaws, TheTruthScoresAbovePerturbedPoses) {
 
 TEST_P(LaserModelLaws, AScanThatSaysNothingChangesNothing) {
   LaserScan none = scan_at(kTruths[0]);
-  LaserScan empty = none, not_numbers = none;
+  LaserScan empty = none, not_numbers = none, negative = none;
   std::fill(none.ranges_m.begin(), none.ranges_m.end(), 0.0f);
   std::fill(not_numbers.ranges_m.begin(), not_numbers.ranges_m.end(), std::nanf(""));
+  std::fill(negative.ranges_m.begin(), negative.ranges_m.end(), -2.0f);
   empty.ranges_m.clear();
-  for (const LaserScan& scan : {none, not_numbers, empty}) {
+  for (const LaserScan& scan : {none, not_numbers, negative, empty}) {
     const double here = score(*model_, scan, kTruths[0]);
     EXPECT_TRUE(std::isfinite(here));
     for (const Pose2& pose : poses_anywhere(50)) EXPECT_EQ(score(*model_, scan, pose), here);
   }
+}
+
+TEST_P(LaserModelLaws, AnglesThatDoNotAdvanceOrAreNotFiniteGiveFiniteScores) {
+  for (const auto& [first, increment] :
+       {std::pair{0.0, 0.0}, {0.0, 1e300}, {std::nan(""), 0.1}, {0.0, std::nan("")}}) {
+    LaserScan scan = scan_at(kTruths[0]);
+    scan.angle_min_rad = first;
+    scan.angle_increment_rad = increment;
+    EXPECT_TRUE(std::isfinite(score(*model_, scan, kTruths[0]))) << first << ' ' << increment;
+    EXPECT_TRUE(std::isfinite(model_->explained_share(scan, kTruths[0])));
+  }
+}
+
+TEST_P(LaserModelLaws, TheGradientAgreesWithNumericDifferences) {
+  constexpr double kStep = 1e-6;
+  const BoundUpdate<Pose2> update = model_->bind(scan_at(kTruths[0]));
+  if (!update.gradient || !GetParam().gradient_is_exact) GTEST_SKIP() << "the model has no exact gradient";
+  const RandomStream random(4, RandomPurpose::kTest, 0);
+  for (std::uint32_t i = 0; i < 50; ++i) {
+    const auto n = random.normal4(i);
+    const Pose2 pose = kTruths[0] * Pose2{0.05 * n[0], 0.05 * n[1], 0.03 * n[2]};
+    Eigen::Vector3d gradient;
+    update.gradient(std::span(&pose, 1), std::span(&gradient, 1));
+    const Pose2 steps[] = {{kStep, 0, 0}, {0, kStep, 0}, {0, 0, kStep}};
+    for (int k = 0; k < 3; ++k) {
+      const Pose2 d = steps[k];
+      const Pose2 both[] = {{pose.x - d.x, pose.y - d.y, pose.theta - d.theta},
+                            {pose.x + d.x, pose.y + d.y, pose.theta + d.theta}};
+      double scores[2];
+      update.log_likelihood(both, scores);
+      EXPECT_NEAR(gradient[k], (scores[1] - scores[0]) / (2.0 * kStep), 1e-3)
+          << "pose " << i << ", component " << k;
+    }
+  }
+  const Pose2 nowhere{std::nan(""), 0, 0};
+  Eigen::Vector3d none;
+  update.gradient(std::span(&nowhere, 1), std::span(&none, 1));
+  EXPECT_TRUE(none.allFinite());
 }
 
 TEST_P(LaserModelLaws, TheUpdateKeepsTheStampAndWhatItNeeds) {

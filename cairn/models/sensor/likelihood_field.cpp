@@ -101,7 +101,15 @@ BoundUpdate<Pose2> LikelihoodField::bind(const LaserScan& scan) const {
         out[begin + i] = scale * plane->log_likelihood(beams.count, sums[i]);
     }
   };
-  return {scan.stamp, evaluate};
+  BoundUpdate<Pose2> update;
+  update.stamp = scan.stamp;
+  update.log_likelihood = evaluate;
+  update.gradient = [plane = plane_, points, scale = options_.share_of(points.size())](
+                        std::span<const Pose2> states, std::span<Eigen::Vector3d> out) {
+    for (std::size_t i = 0; i < states.size(); ++i)
+      out[i] = scale * plane->interpolate(points, states[i]).tail<3>();
+  };
+  return update;
 }
 
 double LikelihoodField::explained_share(const LaserScan& scan, const Pose2& T_map_base) const {

@@ -50,7 +50,8 @@ class LikelihoodField final : public LaserModel {
                   const BeamLimits& limits, const LikelihoodFieldOptions& options);
 
   /// States are T_map_base. A scan without a valid beam gives 0 everywhere; a state that is not finite scores
-  /// as one far off the map.
+  /// as one far off the map. The gradient is that of the score interpolated between the cells' centres
+  /// (LikelihoodPlane::interpolate): the score itself is flat within each cell.
   BoundUpdate<Pose2> bind(const LaserScan& scan) const override;
 
   /// Share of the evaluated beams that end within 3 sigma_hit of a wall, seen from `T_map_base`: 0..1.

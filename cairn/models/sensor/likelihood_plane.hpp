@@ -9,6 +9,8 @@
 #include <span>
 #include <vector>
 
+#include <Eigen/Core>
+
 namespace cairn {
 
 /// End points of the beams of one scan in the robot's frame, in cells.
@@ -51,7 +53,15 @@ class LikelihoodPlane {
     return best_ * static_cast<double>(beams) - step_ * static_cast<double>(sum);
   }
 
+  /// The log-likelihood of all end points (metres, in the robot's frame) seen from a state, interpolated
+  /// bilinearly between the centres of the cells, and its derivative by x, y (1/m, map frame) and heading
+  /// (1/rad). It climbs to the walls where the plane itself is flat within each cell. Beyond the border, and
+  /// for a state that is not finite, it is that of the worst cell and flat.
+  Eigen::Vector4d interpolate(std::span<const Point2> points, const Pose2& T_map_base) const;
+
  private:
+  double value_at(double column, double row) const;
+  Eigen::Vector3d interpolate_at(const Point2& p_cells) const;
   void put_in_cells(std::span<const Pose2> states, PoseBlock& block) const;
   template <class Code>
   void fill(const DistanceField& field, const std::function<double(double)>& log_likelihood,
