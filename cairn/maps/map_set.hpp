@@ -36,8 +36,8 @@ class MapSet {
     return found == maps_.end() ? nullptr : std::static_pointer_cast<const Map>(found->second);
   }
 
-  /// The representation made with these parameters (a text that tells them apart): made when asked for, and shared as
-  /// long as somebody holds it.
+  /// The representation made with these parameters (a text that tells them apart): made when asked for, and
+  /// shared as long as somebody holds it.
   template <class Map>
   std::shared_ptr<const Map> derive(const std::string& parameters,
                                     const std::function<std::shared_ptr<const Map>()>& make) const {
