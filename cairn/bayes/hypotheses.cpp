@@ -47,6 +47,7 @@ bool close(const Pose2& a, const Pose2& b, const HypothesisOptions& o) {
 /// Fuses whatever is close, also over several steps in between. Returns the group of each cell.
 std::vector<int> fuse(const std::vector<Group>& cells, const HypothesisOptions& o) {
   std::vector<Pose2> means;
+  means.reserve(cells.size());
   for (const Group& cell : cells) means.push_back(cell.mean());
   std::vector<int> group(cells.size(), -1);
   int groups = 0;
