@@ -49,6 +49,7 @@ struct Arguments {
 struct Inputs {
   Log log;
   std::shared_ptr<const OccupancyGrid> map;
+  StreamMaps stream_maps;
   LocalizerOptions options;
   std::optional<Trajectory> reference;
   Diagnostics diagnostics;
@@ -101,6 +102,8 @@ Inputs read_inputs(const Arguments& arguments) {
   Inputs inputs;
   inputs.options = read_options(arguments, inputs.diagnostics);
   inputs.map = read_map(arguments.map, inputs.diagnostics);
+  make_stream_maps_absolute(inputs.options);
+  inputs.stream_maps = read_stream_maps(inputs.options, inputs.diagnostics);
   inputs.log = read_log(arguments.log);
   arguments.live ? sort_by_arrival(inputs.log.events) : void(sort_by_stamp(inputs.log));
   if (!arguments.reference.empty()) {
@@ -188,6 +191,7 @@ LocalizeResult run_with_progress(const Arguments& arguments, const Inputs& input
   const Start start = choose_start(arguments, inputs);
   LocalizeRequest request{.log = &inputs.log,
                           .map = inputs.map,
+                          .stream_maps = inputs.stream_maps,
                           .options = inputs.options,
                           .start = start,
                           .seed = parse_seed("--seed", arguments.seed),

@@ -47,6 +47,12 @@ json outcomes_json(const Log& log, const std::vector<OutcomeCounts>& outcomes) {
   return all;
 }
 
+json drop_rates_json(const Log& log, const std::vector<OutcomeCounts>& outcomes) {
+  json rates = json::object();
+  for (std::size_t i = 0; i < log.streams.size(); ++i) rates[log.streams[i].name] = drop_rate(outcomes[i]);
+  return rates;
+}
+
 json accuracy_json(const Score& score) {
   const Summary& position = score.ate.position_m;
   return {{"matched", position.count},
@@ -144,6 +150,7 @@ RunSummary summarize_run(const RunContext& context, const Log& log, const Occupa
          {"height", map.geometry().height},
          {"resolution_m", map.geometry().resolution_m}}},
        {"outcomes", outcomes_json(log, result.outcomes)},
+       {"drop_rates", drop_rates_json(log, result.outcomes)},
        {"updates", result.updates},
        {"timings", timings_json(context, log, result)},
        {"peak_memory_bytes", peak_memory_bytes()},

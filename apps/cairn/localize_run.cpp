@@ -51,13 +51,19 @@ class SnapshotTaker {
   Duration interval_{};
 };
 
+MapLibrary library_of(const LocalizeRequest& request) {
+  MapLibrary library(request.map);
+  for (const auto& [name, map] : request.stream_maps) library.add(name, std::make_shared<const MapSet>(map));
+  return library;
+}
+
 }  // namespace
 
 LocalizeResult localize(const LocalizeRequest& request) {
   LocalizeResult result;
   const auto prepare_started = Clock::now();
   const auto executor = std::make_shared<const Executor>(request.threads);
-  MonteCarloLocalizer localizer(request.options, request.log->streams, request.map, request.start,
+  MonteCarloLocalizer localizer(request.options, request.log->streams, library_of(request), request.start,
                                 request.seed, executor);
   localizer.set_observer([&](const Estimate& estimate) {
     result.estimates.push_back(estimate);

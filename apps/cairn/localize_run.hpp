@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/cairn/stream_maps.hpp"
 #include "cairn/io/log.hpp"
 #include "cairn/localization/estimate.hpp"
 #include "cairn/localization/localizer_options.hpp"
@@ -16,6 +17,8 @@ namespace cairn::app {
 struct LocalizeRequest {
   const Log* log = nullptr;  ///< events in the order of their stamps
   std::shared_ptr<const OccupancyGrid> map;
+  /// Of the streams that have their own (streams.<name>.map), in the frame of `map`; by that name.
+  StreamMaps stream_maps;
   LocalizerOptions options;
   Start start;
   std::uint64_t seed = 1;

@@ -53,8 +53,10 @@ RecordedRun read_recorded_run(const fs::path& run, const std::string& map) {
 }
 
 LocalizeResult run_again(const RecordedRun& run, const LocalizerOptions& options, int threads) {
+  Diagnostics diagnostics;
   return localize({.log = &run.recording.log,
                    .map = run.map,
+                   .stream_maps = read_stream_maps(options, diagnostics),
                    .options = options,
                    .start = {run.recording.header.T_map_base},
                    .seed = run.recording.header.seed,

@@ -19,6 +19,7 @@ Duration history_of(const TimeOptions& options) {
 FusionLocalizer::FusionLocalizer(FusionParts parts)
     : stream_names_(std::move(parts.streams.names)),
       odometry_stream_(parts.streams.odometry),
+      stamp_offsets_(std::move(parts.streams.stamp_offsets)),
       synchronizer_(parts.time, stream_names_.size()),
       scheduler_(parts.scheduler, std::move(parts.streams.shares)),
       watchdog_(std::move(parts.streams.periods), parts.time.watchdog_factor),
@@ -82,7 +83,7 @@ void FusionLocalizer::watch(const Event& event) {
 
 Outcome FusionLocalizer::take_odometry(const Event& event) {
   const auto& odometry = std::get<Odometry>(event.payload);
-  const OdometryTrack::Intake intake = synchronizer_.add(odometry, *now_);
+  const OdometryTrack::Intake intake = synchronizer_.add(odometry, event.stream, *now_);
   if (intake.held) settle_held(*intake.held);
   if (intake.set_back) clock_set_back(odometry);
   if (intake.changed_after) history_.redo_after(*intake.changed_after);
@@ -90,13 +91,15 @@ Outcome FusionLocalizer::take_odometry(const Event& event) {
 }
 
 Outcome FusionLocalizer::take_measurement(const Event& event) {
-  const TimelineKey key{event.stamp, event.stream};
+  const TimelineKey key{event.stamp + stamp_offsets_[event.stream], event.stream};
   if (synchronizer_.waits(key) || history_.contains(key)) {
     warn("duplicate scan", event, "there is one with this stamp");
     return Outcome::kDroppedDuplicate;
   }
-  if (history_.is_stale(event.stamp)) return Outcome::kDroppedStale;
-  synchronizer_.add({event, event_number_, false});
+  if (history_.is_stale(key.stamp)) return Outcome::kDroppedStale;
+  Measurement measurement{event, event_number_, false};
+  measurement.event.stamp = key.stamp;
+  synchronizer_.add(std::move(measurement));
   return Outcome::kPending;
 }
 
@@ -174,12 +177,13 @@ void FusionLocalizer::tell(Time stamp) {
 }
 
 // A late odometry message changes the motion from the one before it on: as far back as measurements can be
-// put, the odometry around them is kept, and as far back as odometry is kept, so are the measurements.
+// put, the odometry around them is kept, and as far back as odometry is kept, so are the measurements; but
+// twice the history is the most that is ever done again.
 void FusionLocalizer::forget() {
   if (history_.empty()) return;
   OdometryTrack& odometry = synchronizer_.odometry();
   Time from = history_.wanted_from();
-  if (!odometry.empty()) from = std::min(from, odometry.at_or_before(from));
+  if (!odometry.empty()) from = std::clamp(odometry.at_or_before(from), from - history_.span(), from);
   history_.forget_before(from);
   odometry.forget_before(from);
   if (history_.oldest() == nullptr || history_.oldest()->started()) belief_.forget_start();

@@ -91,6 +91,7 @@ class FusionLocalizer : public Localizer {
 
   std::vector<std::string> stream_names_;
   std::optional<StreamId> odometry_stream_;
+  std::vector<Duration> stamp_offsets_;  ///< per stream
   Synchronizer synchronizer_;
   Scheduler scheduler_;
   Watchdog watchdog_;

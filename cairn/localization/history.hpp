@@ -34,6 +34,7 @@ class History {
   /// @param span how far back the history reaches from the newest measurement; zero: not at all
   explicit History(Duration span) : span_(span), spacing_(span / (kCheckpoints - 2)) {}
 
+  Duration span() const { return span_; }
   bool empty() const { return entries_.empty(); }
   const SlidingVector<Entry>& entries() const { return entries_; }
   std::size_t checkpoints() const { return used_; }

@@ -70,7 +70,13 @@ void LaserStreamOptions::visit(OptionVisitor& v) {
   std::vector<std::string> models = laser_model_names();
   models.insert(models.begin(), "");
   v.choice({"model", "sensor model of this stream; empty: laser.model"}, model, models);
-  v.text({"map", "name of the map that this stream uses; empty: the main map"}, map);
+  v.text({"map", "map of this stream, a file in the frame of the main map; empty: the main map"}, map);
+  v.number({"effective_beams",
+            "in place of laser.effective_beams, lower for a sensor that the map fits less well; 0: that"},
+           effective_beams, {0.0, 100000});
+  v.number({"stamp_offset_s",
+            "added to the stamps, seconds; negative for a sensor that stamps its data when it sends them"},
+           stamp_offset_s, {-10.0, 10.0});
   v.number({"nice", "scheduler.policy cfs: a stream with a lower value is used more often"}, nice,
            {1e-3, 1e3});
   v.number({"rate_hz", "in place of scheduler.rate_hz; 0: that one"}, rate_hz, {0.0, 1e6});

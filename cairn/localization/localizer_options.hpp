@@ -24,8 +24,10 @@ struct LaserStreamOptions {
   bool mount_from_log = true;  ///< take the mounting pose from the log where it tells one
   Pose2 T_base_sensor;         ///< used where the log does not tell, or if mount_from_log is false
   BeamLimits limits;
-  std::string model;      ///< sensor model, by its name in cairn/models/registry.hpp; empty: laser.model
-  std::string map;        ///< name in the MapLibrary; empty: the main map
+  std::string model;  ///< sensor model, by its name in cairn/models/registry.hpp; empty: laser.model
+  std::string map;    ///< name in the MapLibrary; empty: the main map
+  double effective_beams = 0.0;  ///< in place of laser.effective_beams; 0: that
+  double stamp_offset_s = 0.0;   ///< added to the stamps: the sensor saw it then, in the odometry's clock
   double nice = 1.0;      ///< virtual time per time of computing: a lower one is used more often (Scheduler)
   double rate_hz = 0.0;   ///< in place of scheduler.rate_hz; 0: that one
   double cost = 1.0;      ///< modelled cost of one beam, relative to scheduler.cost_ns

@@ -118,14 +118,19 @@ std::unique_ptr<const StreamModel> bind_laser(const LocalizerOptions& options,
   const Pose2 T_base_sensor =
       laser.mount_from_log && stream.T_base_sensor ? *stream.T_base_sensor : laser.T_base_sensor;
   const std::string& name = laser.model.empty() ? options.laser.model : laser.model;
-  const LaserModelOptions coarse =
-      widened(options.laser, options.global.sigma_hit_m, options.global.effective_beams);
+  LaserModelOptions fine = options.laser;
+  double coarse_beams = options.global.effective_beams;
+  if (laser.effective_beams > 0.0) {
+    fine.likelihood_field.effective_beams = fine.beam.effective_beams = laser.effective_beams;
+    coarse_beams = std::min(coarse_beams, laser.effective_beams);
+  }
+  const LaserModelOptions coarse = widened(options.laser, options.global.sigma_hit_m, coarse_beams);
   const MapSet& map = maps.at(laser.map);
   std::unique_ptr<const LaserLocator> locator;
   if (options.global.most_poses > 0)
     locator = std::make_unique<const LaserLocator>(map.grid(), options, T_base_sensor, laser.limits);
   return std::make_unique<const LaserStream>(
-      make_laser_model(name, {map, T_base_sensor, laser.limits, options.laser}),
+      make_laser_model(name, {map, T_base_sensor, laser.limits, fine}),
       make_laser_model(name, {map, T_base_sensor, laser.limits, coarse}), std::move(locator),
       options.laser.likelihood_field.max_beams, laser.cost);
 }
@@ -150,11 +155,13 @@ StreamBindings bind_streams(const LocalizerOptions& options, const std::vector<S
   for (const StreamInfo& stream : streams) {
     bindings.names.push_back(stream.name);
     bindings.models.emplace_back();
+    bindings.stamp_offsets.emplace_back();
     bindings.shares.emplace_back();
     bindings.periods.emplace_back();
     const auto laser = options_of(options, stream);
     if (!laser) continue;
     bindings.models.back() = bind_laser(options, *laser, stream, maps);
+    bindings.stamp_offsets.back() = duration_from_seconds(laser->stamp_offset_s);
     bindings.shares.back().nice = laser->nice;
     if (laser->rate_hz > 0.0) bindings.shares.back().rate_hz = laser->rate_hz;
     if (laser->period_s > 0.0) bindings.periods.back() = duration_from_seconds(laser->period_s);

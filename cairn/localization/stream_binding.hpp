@@ -18,6 +18,7 @@ struct StreamBindings {
   std::vector<std::string> names;
   std::optional<StreamId> odometry;  ///< nullopt: there is none, the robot is only seen by its sensors
   std::vector<std::unique_ptr<const StreamModel>> models;  ///< null: the stream is not bound
+  std::vector<Duration> stamp_offsets;                     ///< added to the stamps of the measurements
   std::vector<Scheduler::Share> shares;
   std::vector<std::optional<Duration>> periods;  ///< where the configuration tells them
 };

@@ -16,7 +16,8 @@ void Synchronizer::observe(const Event& event, Time now) {
   lags_.observe(event.stream, event.stamp, event.arrival, now);
 }
 
-OdometryTrack::Intake Synchronizer::add(const Odometry& odometry, Time now) {
+OdometryTrack::Intake Synchronizer::add(const Odometry& odometry, StreamId stream, Time now) {
+  odometry_stream_ = stream;
   heard_odometry_ = now;
   others_ = 0;
   return odometry_.offer(odometry);
@@ -49,12 +50,18 @@ Time Synchronizer::ready_until() const {
   Time until = odometry_.empty() ? Time::min() : odometry_.newest().stamp;
   if (ended_ && !odometry_.empty()) return until + kExtrapolation;
   if (odometry_is_silent()) {
-    if (const auto lag = lags_.shortest(now_)) until = std::max(until, now_ - *lag);
+    if (const auto lag = lag_of_the_present()) until = std::max(until, now_ - *lag);
   }
   if (delays_ && !ended_) {
     if (const auto lag = lags_.longest(now_)) until = std::min(until, now_ - *lag);
   }
   return until;
+}
+
+std::optional<Duration> Synchronizer::lag_of_the_present() const {
+  if (!odometry_stream_) return lags_.shortest(now_);
+  const auto lag = lags_.typical(*odometry_stream_, *heard_odometry_);
+  return lag ? lag : lags_.shortest(now_);
 }
 
 std::size_t Synchronizer::ready() const {

@@ -33,7 +33,7 @@ class Synchronizer {
   /// Time went on to `now`, the arrival of `event`, whose stamp tells the lag of its stream.
   void observe(const Event& event, Time now);
 
-  OdometryTrack::Intake add(const Odometry& odometry, Time now);
+  OdometryTrack::Intake add(const Odometry& odometry, StreamId stream, Time now);
   /// @pre !waits(key_of(measurement))
   void add(Measurement measurement);
   bool waits(const TimelineKey& key) const;
@@ -73,6 +73,7 @@ class Synchronizer {
  private:
   std::size_t place_of(const TimelineKey& key) const;
   Time ready_until() const;
+  std::optional<Duration> lag_of_the_present() const;
 
   bool delays_;
   Duration odometry_timeout_;
@@ -80,6 +81,7 @@ class Synchronizer {
   OdometryTrack odometry_;
   SlidingVector<Measurement> waiting_;  ///< in the order of their keys
   Time now_;
+  std::optional<StreamId> odometry_stream_;
   std::optional<Time> heard_odometry_;  ///< arrival of the last one; of the first event before there was one
   int others_ = 0;                      ///< messages since then
   bool ended_ = false;

@@ -4,9 +4,10 @@ import { card, table, tip } from './dom.js';
 import { count, percent } from './format.js';
 import { color } from './theme.js';
 
-// used, not needed, then the reasons for dropping.
-const kOrder = ['used', 'not_needed', 'pending'];
-const kColors = ['estimate', 'sky', 'grey', 'error', 'purple', 'yellow', 'accent'];
+// The uses, not needed, then the reasons for dropping.
+const kOrder = ['used', 'replayed', 'deferred', 'not_needed', 'pending'];
+const kColors = ['estimate', 'accent', 'purple', 'sky', 'grey', 'error', 'yellow'];
+const kDropColors = kColors.slice(5);
 
 export const words = (name) => name.replaceAll('_', ' ');
 
@@ -19,7 +20,7 @@ function namesOf(outcomes) {
 function colorOf(name, names) {
   const place = kOrder.indexOf(name);
   const drop = names.filter((other) => !kOrder.includes(other)).indexOf(name);
-  return color(kColors[place >= 0 ? place : 3 + drop % 4]);
+  return color(place >= 0 ? kColors[place] : kDropColors[drop % kDropColors.length]);
 }
 
 export function drawOutcomes({ metrics }, parent) {
@@ -50,8 +51,11 @@ export function drawOutcomes({ metrics }, parent) {
       })),
     }),
   });
-  element.append(table(['stream', ...names.map(words), 'messages'], streams.map((stream) =>
-    [stream, ...names.map((name) => cellOf(outcomes[stream][name] ?? 0, total(stream))), count(total(stream))])));
+  const dropped = (stream) => names.filter((name) => name.startsWith('dropped_'))
+    .reduce((sum, name) => sum + (outcomes[stream][name] ?? 0), 0);
+  element.append(table(['stream', ...names.map(words), 'messages', 'drop rate'], streams.map((stream) =>
+    [stream, ...names.map((name) => cellOf(outcomes[stream][name] ?? 0, total(stream))), count(total(stream)),
+      percent(dropped(stream) / Math.max(1, total(stream)))])));
 }
 
 const cellOf = (n, all) => (n === 0 ? '0' : `${count(n)} (${percent(n / all)})`);
