@@ -83,10 +83,11 @@ void FusionLocalizer::watch(const Event& event) {
 
 Outcome FusionLocalizer::take_odometry(const Event& event) {
   const auto& odometry = std::get<Odometry>(event.payload);
-  const OdometryTrack::Intake intake = synchronizer_.add(odometry, event.stream, *now_);
+  const OdometryTrack::Intake intake = synchronizer_.add(odometry, *now_);
   if (intake.held) settle_held(*intake.held);
   if (intake.set_back) clock_set_back(odometry);
   if (intake.changed_after) history_.redo_after(*intake.changed_after);
+  if (belief_is_beyond(synchronizer_.odometry())) clock_set_back(odometry);
   return intake.now;
 }
 
@@ -101,6 +102,12 @@ Outcome FusionLocalizer::take_measurement(const Event& event) {
   measurement.event.stamp = key.stamp;
   synchronizer_.add(std::move(measurement));
   return Outcome::kPending;
+}
+
+// Measurements alone, with wrong stamps and no odometry, may have led the belief into the future.
+bool FusionLocalizer::belief_is_beyond(const OdometryTrack& odometry) const {
+  return !history_.empty() && !odometry.empty() &&
+         belief_.stamp() - odometry.newest().stamp > OdometryTrack::kLargestJump;
 }
 
 void FusionLocalizer::clock_set_back(const Odometry& odometry) {

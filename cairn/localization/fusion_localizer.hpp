@@ -71,6 +71,7 @@ class FusionLocalizer : public Localizer {
   Outcome take(const Event& event);
   Outcome take_odometry(const Event& event);
   Outcome take_measurement(const Event& event);
+  bool belief_is_beyond(const OdometryTrack& odometry) const;
   void clock_set_back(const Odometry& odometry);
 
   void work();

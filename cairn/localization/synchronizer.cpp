@@ -16,8 +16,7 @@ void Synchronizer::observe(const Event& event, Time now) {
   lags_.observe(event.stream, event.stamp, event.arrival, now);
 }
 
-OdometryTrack::Intake Synchronizer::add(const Odometry& odometry, StreamId stream, Time now) {
-  odometry_stream_ = stream;
+OdometryTrack::Intake Synchronizer::add(const Odometry& odometry, Time now) {
   heard_odometry_ = now;
   others_ = 0;
   return odometry_.offer(odometry);
@@ -50,7 +49,7 @@ Time Synchronizer::ready_until() const {
   Time until = odometry_.empty() ? Time::min() : odometry_.newest().stamp;
   if (ended_ && !odometry_.empty()) return until + kExtrapolation;
   if (odometry_is_silent()) {
-    if (const auto lag = lag_of_the_present()) until = std::max(until, now_ - *lag);
+    if (const auto now = present()) until = std::max(until, *now);
   }
   if (delays_ && !ended_) {
     if (const auto lag = lags_.longest(now_)) until = std::min(until, now_ - *lag);
@@ -58,10 +57,11 @@ Time Synchronizer::ready_until() const {
   return until;
 }
 
-std::optional<Duration> Synchronizer::lag_of_the_present() const {
-  if (!odometry_stream_) return lags_.shortest(now_);
-  const auto lag = lags_.typical(*odometry_stream_, *heard_odometry_);
-  return lag ? lag : lags_.shortest(now_);
+// The newest odometry that is believed, and the time that went by since.
+std::optional<Time> Synchronizer::present() const {
+  if (!odometry_.empty()) return odometry_.newest().stamp + (now_ - *heard_odometry_);
+  const auto lag = lags_.shortest(now_);
+  return lag ? std::optional(now_ - *lag) : std::nullopt;
 }
 
 std::size_t Synchronizer::ready() const {

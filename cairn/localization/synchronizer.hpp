@@ -18,9 +18,10 @@ namespace cairn {
 ///
 /// Nothing waits for ever. Where the odometry has been silent for `odometry_timeout_s` and kSilentAfter other
 /// messages (one wrong arrival must not pass for a silence), measurements go on without it as soon as their
-/// stamp lies in the past, which the shortest lag of all streams tells: one with a stamp from the future
-/// waits without holding up others. Under late_policy delay all wait, besides, until the most delayed stream
-/// has had its say. At most kMostWaiting wait.
+/// stamp lies in the past, which the last odometry and the time since then tell (where there never was any,
+/// the shortest lag of all streams): one with a stamp from the future waits without holding up others. Under
+/// late_policy delay all wait, besides, until the most delayed stream has had its say. At most kMostWaiting
+/// wait.
 class Synchronizer {
  public:
   static constexpr std::size_t kMostWaiting = 1000;
@@ -33,7 +34,7 @@ class Synchronizer {
   /// Time went on to `now`, the arrival of `event`, whose stamp tells the lag of its stream.
   void observe(const Event& event, Time now);
 
-  OdometryTrack::Intake add(const Odometry& odometry, StreamId stream, Time now);
+  OdometryTrack::Intake add(const Odometry& odometry, Time now);
   /// @pre !waits(key_of(measurement))
   void add(Measurement measurement);
   bool waits(const TimelineKey& key) const;
@@ -73,7 +74,7 @@ class Synchronizer {
  private:
   std::size_t place_of(const TimelineKey& key) const;
   Time ready_until() const;
-  std::optional<Duration> lag_of_the_present() const;
+  std::optional<Time> present() const;
 
   bool delays_;
   Duration odometry_timeout_;
@@ -81,7 +82,6 @@ class Synchronizer {
   OdometryTrack odometry_;
   SlidingVector<Measurement> waiting_;  ///< in the order of their keys
   Time now_;
-  std::optional<StreamId> odometry_stream_;
   std::optional<Time> heard_odometry_;  ///< arrival of the last one; of the first event before there was one
   int others_ = 0;                      ///< messages since then
   bool ended_ = false;

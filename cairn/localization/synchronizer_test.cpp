@@ -22,7 +22,7 @@ class SynchronizerTest : public ::testing::Test {
     const Event event = test::odometry_event(stamp, {stamp, 0, 0});
     now_ = std::max(now_, stamp + lag);
     synchronizer_.observe({event.stamp, at(stamp + lag), 0, event.payload}, at(now_));
-    synchronizer_.add(std::get<Odometry>(event.payload), 0, at(now_));
+    synchronizer_.add(std::get<Odometry>(event.payload), at(now_));
   }
   void measure(double stamp, StreamId stream = 1, double lag = 0.0) {
     Measurement m;
