@@ -18,7 +18,7 @@ struct LocalizeRequest {
   const Log* log = nullptr;  ///< events in the order of their stamps
   std::shared_ptr<const OccupancyGrid> map;
   /// Of the streams that have their own (streams.<name>.map), in the frame of `map`; by that name.
-  StreamMaps stream_maps;
+  StreamMaps stream_maps = {};
   LocalizerOptions options;
   Start start;
   std::uint64_t seed = 1;
