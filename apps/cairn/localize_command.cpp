@@ -48,7 +48,8 @@ struct Arguments {
 // What the arguments name, read.
 struct Inputs {
   Log log;
-  std::shared_ptr<const OccupancyGrid> map;
+  std::shared_ptr<const MapSet> maps;
+  std::shared_ptr<const OccupancyGrid> map;  ///< the grid of `maps`
   StreamMaps stream_maps;
   LocalizerOptions options;
   std::optional<Trajectory> reference;
@@ -101,7 +102,8 @@ Inputs read_inputs(const Arguments& arguments) {
   const auto started = std::chrono::steady_clock::now();
   Inputs inputs;
   inputs.options = read_options(arguments, inputs.diagnostics);
-  inputs.map = read_map(arguments.map, inputs.diagnostics);
+  inputs.maps = read_map_set(arguments.map, inputs.diagnostics);
+  inputs.map = inputs.maps->grid();
   make_stream_maps_absolute(inputs.options);
   inputs.stream_maps = read_stream_maps(inputs.options, inputs.diagnostics);
   inputs.log = read_log(arguments.log);
@@ -191,6 +193,7 @@ LocalizeResult run_with_progress(const Arguments& arguments, const Inputs& input
   const Start start = choose_start(arguments, inputs);
   LocalizeRequest request{.log = &inputs.log,
                           .map = inputs.map,
+                          .maps = inputs.maps,
                           .stream_maps = inputs.stream_maps,
                           .options = inputs.options,
                           .start = start,
@@ -255,7 +258,7 @@ int run_localize(const Arguments& arguments) {
 void add_localize(CLI::App& program, Runner& run) {
   auto* command = program.add_subcommand("localize", "Localize a recorded robot in a map");
   auto a = std::make_shared<Arguments>();
-  command->add_option("--map", a->map, "Map (map_server YAML, Wean)")->required();
+  command->add_option("--map", a->map, "Map (map_server YAML, Wean; vector map: text, GeoJSON)")->required();
   command->add_option("--log", a->log, "Recording (CARMEN, ROS 1 or ROS 2 bag, MCAP, Wean, MRPT text)")
       ->required();
   command->add_option(

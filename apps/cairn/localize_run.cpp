@@ -52,7 +52,7 @@ class SnapshotTaker {
 };
 
 MapLibrary library_of(const LocalizeRequest& request) {
-  MapLibrary library(request.map);
+  MapLibrary library = request.maps ? MapLibrary(request.maps) : MapLibrary(request.map);
   for (const auto& [name, map] : request.stream_maps) library.add(name, std::make_shared<const MapSet>(map));
   return library;
 }

@@ -17,6 +17,8 @@ namespace cairn::app {
 struct LocalizeRequest {
   const Log* log = nullptr;  ///< events in the order of their stamps
   std::shared_ptr<const OccupancyGrid> map;
+  std::shared_ptr<const MapSet> maps =
+      nullptr;  ///< of the same place, in every representation; null: the grid
   /// Of the streams that have their own (streams.<name>.map), in the frame of `map`; by that name.
   StreamMaps stream_maps = {};
   LocalizerOptions options;

@@ -159,15 +159,21 @@ void GlobalOptions::visit(OptionVisitor& v) {
             most_poses, {0, 10000});
 }
 
+void CgrOptions::visit(OptionVisitor& v) {
+  v.integer({"particles", "number of particles of the recipe cgr"}, particles, {1, 2000});
+  refinement.visit(v);
+}
+
 void LocalizerOptions::visit(OptionVisitor& v) {
   const auto section = [&v](const std::string& name, const std::string& documentation, auto& options) {
     v.section({name, documentation}, [&options](OptionVisitor& inner) { options.visit(inner); });
   };
   v.choice(
       {"recipe",
-       "composition of the filter: mcl (fixed number of particles), kld_mcl (adaptive), amcl (and recovers); "
+       "composition of the filter: mcl (fixed number of particles), kld_mcl (adaptive), amcl (and recovers), "
+       "cgr (few, refined by the measurement); "
        "srl, kld_srl (sensor resetting); csrl, ckld_srl, ckld_mcl (and keep hypotheses apart)"},
-      recipe, {"mcl", "kld_mcl", "amcl", "srl", "kld_srl", "csrl", "ckld_srl", "ckld_mcl"});
+      recipe, {"mcl", "kld_mcl", "cgr", "amcl", "srl", "kld_srl", "csrl", "ckld_srl", "ckld_mcl"});
   v.text({"odometry_stream",
           "name of the odometry in the log; empty: the first odometry stream; none: do without"},
          odometry_stream);
@@ -180,6 +186,7 @@ void LocalizerOptions::visit(OptionVisitor& v) {
   section("global", "while the belief is spread over several places", global);
   section("time", "data that comes late, or not at all", time);
   section("scheduler", "which measurements get the computing time", scheduler);
+  section("cgr", "recipe cgr: refinement of the particles along the gradient of the measurement", cgr);
   std::vector<std::string> present;
   for (const auto& [name, unused] : streams) present.push_back(name);
   v.table({"streams", "laser streams by their name in the log; none: every laser stream is used"}, present,

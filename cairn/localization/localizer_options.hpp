@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cairn/bayes/gradient_refinement.hpp"
 #include "cairn/bayes/hypotheses.hpp"
 #include "cairn/bayes/injections/injections.hpp"
 #include "cairn/bayes/kld.hpp"
@@ -92,6 +93,15 @@ struct GlobalOptions {
   void visit(OptionVisitor& visitor);
 };
 
+/// The recipe cgr: few particles, refined by the measurement. The densities of the acceptance test cost the
+/// square of their number.
+struct CgrOptions {
+  int particles = 20;
+  GradientRefinementOptions refinement;
+
+  void visit(OptionVisitor& visitor);
+};
+
 /// Everything about a localizer but its map, its start and its seed.
 struct LocalizerOptions {
   std::string recipe = "kld_mcl";
@@ -105,6 +115,7 @@ struct LocalizerOptions {
   GlobalOptions global;
   TimeOptions time;
   SchedulerOptions scheduler;
+  CgrOptions cgr;
   std::map<std::string, LaserStreamOptions>
       streams;  ///< by name in the log; none: every laser stream is used
 

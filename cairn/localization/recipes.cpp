@@ -75,6 +75,14 @@ Filter mcl(const Kitchen& k) { return k.serve(k.plain(k.fixed(), k.filter().resa
 
 Filter kld_mcl(const Kitchen& k) { return k.serve(k.plain(k.kld(), k.always())); }
 
+Filter cgr(const Kitchen& k) {
+  const CgrOptions& options = k.options.cgr;
+  auto parts = k.plain(std::make_unique<FixedSize<Pose2>>(static_cast<std::size_t>(options.particles)),
+                       k.filter().resample);
+  parts.refinement = std::make_unique<GradientRefinement>(options.refinement);
+  return k.serve(std::move(parts));
+}
+
 Filter amcl(const Kitchen& k) {
   auto parts = k.plain(k.kld(), k.always());
   parts.injection = std::make_unique<Augmented<Pose2>>(k.filter().augmented, k.beams(), k.source());
@@ -111,9 +119,9 @@ struct Recipe {
   const char* name;
   Filter (*make)(const Kitchen&);
 };
-constexpr Recipe kRecipes[] = {{"mcl", mcl},           {"kld_mcl", kld_mcl},  {"amcl", amcl},
-                               {"srl", srl},           {"kld_srl", kld_srl},  {"csrl", csrl},
-                               {"ckld_srl", ckld_srl}, {"ckld_mcl", ckld_mcl}};
+constexpr Recipe kRecipes[] = {{"mcl", mcl},   {"kld_mcl", kld_mcl},   {"cgr", cgr},
+                               {"amcl", amcl}, {"srl", srl},           {"kld_srl", kld_srl},
+                               {"csrl", csrl}, {"ckld_srl", ckld_srl}, {"ckld_mcl", ckld_mcl}};
 
 }  // namespace
 

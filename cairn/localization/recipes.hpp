@@ -11,6 +11,7 @@ namespace cairn {
 /// Builds the particle filter that `options.recipe` names:
 ///   mcl       a fixed number of particles, resampling when the effective sample size has fallen
 ///   kld_mcl   as many as KLD-sampling asks for, resampling before every prediction
+///   cgr       corrective gradient refinement: few particles, moved along the gradient of each measurement
 ///   amcl      kld_mcl; while measurements are worse than usual, particles come from p(x | z)
 /// and those of Sehestedt & Schneider (ICINCO 2006), with samples of p(x | z) where they say so:
 ///   srl       mcl with sensor resetting (their section 3.1)
@@ -23,7 +24,7 @@ namespace cairn {
 ///   apart
 ///             until the evidence of the last metre or so tells
 /// The scheme that `options.filter.resampling` names is that of the recipes without clusters.
-/// @param map where p(x | z) is sampled: not needed by mcl and kld_mcl
+/// @param map where p(x | z) is sampled: not needed by mcl, kld_mcl and cgr
 /// @throws ConfigurationError for an unknown name, and if a map is needed and missing
 ParticleFilter<Pose2, Pose2> make_filter(const LocalizerOptions& options, std::uint64_t seed,
                                          std::shared_ptr<const Executor> executor,

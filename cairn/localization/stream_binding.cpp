@@ -129,10 +129,14 @@ std::unique_ptr<const StreamModel> bind_laser(const LocalizerOptions& options,
   std::unique_ptr<const LaserLocator> locator;
   if (options.global.most_poses > 0)
     locator = std::make_unique<const LaserLocator>(map.grid(), options, T_base_sensor, laser.limits);
+  auto model = make_laser_model(name, {map, T_base_sensor, laser.limits, fine});
+  if (options.recipe == "cgr" && !model->bind(LaserScan{}).gradient) {
+    throw ConfigurationError("recipe", "cgr needs the gradient of a sensor model, '" + name + "' has none",
+                             "use laser.model=vector_laser or v_amcl");
+  }
   return std::make_unique<const LaserStream>(
-      make_laser_model(name, {map, T_base_sensor, laser.limits, fine}),
-      make_laser_model(name, {map, T_base_sensor, laser.limits, coarse}), std::move(locator),
-      options.laser.likelihood_field.max_beams, laser.cost);
+      std::move(model), make_laser_model(name, {map, T_base_sensor, laser.limits, coarse}),
+      std::move(locator), options.laser.likelihood_field.max_beams, laser.cost);
 }
 
 // How a laser stream is to be used; nullopt: not at all.

@@ -3,7 +3,9 @@
 #include "cairn/core/errors.hpp"
 #include "cairn/maps/distance_field.hpp"
 #include "cairn/maps/ray_marching.hpp"
+#include "cairn/maps/wall_extraction.hpp"
 #include "cairn/models/sensor/amcl_likelihood_field.hpp"
+#include "cairn/models/sensor/v_amcl.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -65,6 +67,28 @@ std::shared_ptr<const LaserModel> make_ndt_model(const LaserModelParts& parts) {
                                           parts.limits, options);
 }
 
+// The vector map that was given, or the straight walls of the grid.
+std::shared_ptr<const VectorMap> vector_map(const MapSet& maps) {
+  if (auto given = maps.find<VectorMap>()) return given;
+  return maps.derive<VectorMap>(
+      "grid", [&] { return std::make_shared<const VectorMap>(extract_walls(*maps.grid())); });
+}
+
+std::shared_ptr<const LaserModel> make_vector_laser(const LaserModelParts& parts) {
+  const auto walls = parts.maps.derive<WallGrid>(
+      "laser", [&] { return std::make_shared<const WallGrid>(vector_map(parts.maps), kSeenByLaser); });
+  return std::make_shared<const VectorLaser>(walls, parts.T_base_sensor, parts.limits,
+                                             parts.options.vector_laser);
+}
+
+std::shared_ptr<const LaserModel> make_v_amcl(const LaserModelParts& parts) {
+  const LikelihoodFieldOptions& options = parts.options.likelihood_field;
+  const auto walls = parts.maps.derive<WallDistance>(std::to_string(options.max_distance_m), [&] {
+    return std::make_shared<const WallDistance>(vector_map(parts.maps), options.max_distance_m, kSeenByLaser);
+  });
+  return std::make_shared<const VectorAmcl>(walls, parts.T_base_sensor, parts.limits, options);
+}
+
 // The one table of names: a new sensor model of laser scans is one line here.
 constexpr LaserModelEntry kLaserModels[] = {
     {"likelihood_field_prob", make_likelihood_field_prob},
@@ -72,6 +96,8 @@ constexpr LaserModelEntry kLaserModels[] = {
     {"beam", make_beam},
     {"ndt", make_ndt_model<NdtKind::kNdt>},
     {"ondt", make_ndt_model<NdtKind::kOndt>},
+    {"vector_laser", make_vector_laser},
+    {"v_amcl", make_v_amcl},
 };
 
 }  // namespace
@@ -84,6 +110,8 @@ void LaserModelOptions::visit(OptionVisitor& v) {
             [this](OptionVisitor& inner) { beam.visit(inner); });
   v.section({"ndt", "models ndt and ondt: normal distributions of the walls"},
             [this](OptionVisitor& inner) { ndt.visit(inner); });
+  v.section({"vector_laser", "model vector_laser: distance to the wall that is seen in the beam's direction"},
+            [this](OptionVisitor& inner) { vector_laser.visit(inner); });
 }
 
 void LaserModelOptions::validate() const {
@@ -100,6 +128,8 @@ LaserModelOptions widened(LaserModelOptions options, double sigma_hit_m, double 
   options.ndt.sigma_hit_m = sigma_hit_m;
   options.ndt.effective_beams = effective_beams;
   options.ndt.cell_size_m = std::max(options.ndt.cell_size_m, kCellSigmas * sigma_hit_m);
+  options.vector_laser.sigma_m = sigma_hit_m;
+  options.vector_laser.effective_beams = effective_beams;
   return options;
 }
 

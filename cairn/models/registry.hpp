@@ -7,6 +7,7 @@
 #include "cairn/models/sensor/laser_model.hpp"
 #include "cairn/models/sensor/likelihood_field.hpp"
 #include "cairn/models/sensor/ndt_model.hpp"
+#include "cairn/models/sensor/vector_laser.hpp"
 
 #include <memory>
 #include <string>
@@ -17,9 +18,10 @@ namespace cairn {
 /// The options of every sensor model of laser scans, under the keys of `laser`.
 struct LaserModelOptions {
   std::string model = "likelihood_field_prob";  ///< name in the registry, unless a stream names its own
-  LikelihoodFieldOptions likelihood_field;      ///< likelihood_field_prob and likelihood_field
+  LikelihoodFieldOptions likelihood_field;      ///< likelihood_field_prob, likelihood_field and v_amcl
   BeamModelOptions beam;
   NdtModelOptions ndt;  ///< ndt and ondt
+  VectorLaserOptions vector_laser;
 
   void visit(OptionVisitor& visitor);
   /// @throws ConfigurationError for values that do not fit each other

@@ -44,6 +44,10 @@ inline std::vector<RecipeCase> recipes() {
   }
   for (const std::string recipe : {"amcl", "srl", "kld_srl", "csrl", "ckld_srl", "ckld_mcl"})
     cases.push_back({recipe, [recipe](LocalizerOptions& o) { o.recipe = recipe; }});
+  cases.push_back({"cgr", [](LocalizerOptions& o) {
+                     o.recipe = "cgr";
+                     o.laser.model = "v_amcl";
+                   }});
   return cases;
 }
 

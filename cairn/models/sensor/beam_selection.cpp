@@ -36,17 +36,22 @@ double bearing_of(const LaserScan& scan, std::size_t beam) {
 
 }  // namespace
 
-std::vector<Point2> select_end_points(const LaserScan& scan, const Pose2& T_base_sensor,
-                                      const BeamLimits& limits, int max_beams) {
+std::vector<std::size_t> select_beams(const LaserScan& scan, const BeamLimits& limits, int max_beams) {
   const std::vector<std::size_t> valid = beams_that(scan, [&](float range) {
     return scan.is_valid_range(range) && range >= limits.min_range_m && range < limits.max_range_m;
   });
   const EvenChoice chosen(valid.size(), max_beams);
+  std::vector<std::size_t> beams(chosen.count());
+  for (std::size_t k = 0; k < chosen.count(); ++k) beams[k] = valid[chosen[k]];
+  return beams;
+}
+
+std::vector<Point2> select_end_points(const LaserScan& scan, const Pose2& T_base_sensor,
+                                      const BeamLimits& limits, int max_beams) {
   std::vector<Point2> points;
-  points.reserve(chosen.count());
-  for (std::size_t k = 0; k < chosen.count(); ++k) {
-    const double angle = bearing_of(scan, valid[chosen[k]]);
-    const double range = scan.ranges_m[valid[chosen[k]]];
+  for (const std::size_t i : select_beams(scan, limits, max_beams)) {
+    const double angle = bearing_of(scan, i);
+    const double range = scan.ranges_m[i];
     points.push_back(T_base_sensor * Point2{range * std::cos(angle), range * std::sin(angle)});
   }
   return points;

@@ -3,6 +3,7 @@
 #include "cairn/core/pose2.hpp"
 #include "cairn/sensing/laser_scan.hpp"
 
+#include <cstddef>
 #include <vector>
 
 namespace cairn {
@@ -13,9 +14,12 @@ struct BeamLimits {
   double max_range_m = 1e9;
 };
 
-/// End points, in the robot's base frame, of at most `max_beams` (0: all) of the valid beams of a scan.
-/// Invalid beams are dropped *before* the choice, which is then even over the valid ones: choosing first and
-/// dropping later leaves few beams in scans with many missing returns.
+/// Indices of at most `max_beams` (0: all) of the valid beams of a scan, in their order. Invalid beams are
+/// dropped *before* the choice, which is then even over the valid ones: choosing first and dropping later
+/// leaves few beams in scans with many missing returns.
+std::vector<std::size_t> select_beams(const LaserScan& scan, const BeamLimits& limits, int max_beams);
+
+/// Their end points, in the robot's base frame.
 std::vector<Point2> select_end_points(const LaserScan& scan, const Pose2& T_base_sensor,
                                       const BeamLimits& limits, int max_beams);
 

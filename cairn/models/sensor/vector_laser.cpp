@@ -1,0 +1,243 @@
+#include "cairn/models/sensor/vector_laser.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+namespace cairn {
+namespace {
+
+constexpr double kExplained_m = 0.15;
+// The direction of the scan at an end point is that between points this far to both sides.
+constexpr double kHalfBase_m = 0.15;
+constexpr double kSmallestGap_m = 0.3;  // between neighbours of one surface; wider where beams are sparse
+constexpr double kGapsPerSpacing = 4.0;
+
+struct Beam {
+  Point2 direction;  ///< unit length, base frame
+  double range_m;
+  std::optional<Point2> tangent;  ///< of the scan there, unit length, base frame
+};
+
+// A scan as the evaluation needs it: beams counter-clockwise.
+struct PreparedScan {
+  Point2 sensor;  ///< base frame
+  std::vector<Beam> beams;
+  double scale = 1.0;
+  double reach_m = 0.0;
+};
+
+// A beam and the wall that is seen in its direction.
+struct Correspondence {
+  Point2 end;         ///< end point relative to the base, map frame's axes
+  Point2 normal;      ///< of the wall, unit length
+  double residual_m;  ///< signed distance of the end point to the line, along the normal
+  bool before_wall;
+  bool gated;  ///< near its wall and running along it
+};
+
+Point2 rotate(double c, double s, const Point2& p) { return {c * p.x - s * p.y, s * p.x + c * p.y}; }
+double dot(const Point2& a, const Point2& b) { return a.x * b.x + a.y * b.y; }
+
+Point2 end_point(const LaserScan& scan, std::size_t i) {
+  const double angle = scan.angle_min_rad + static_cast<double>(i) * scan.angle_increment_rad;
+  return {scan.ranges_m[i] * std::cos(angle), scan.ranges_m[i] * std::sin(angle)};
+}
+
+// The last point of the same surface as beam `i`, up to kHalfBase_m away, in one direction of indices.
+Point2 follow_surface(const LaserScan& scan, std::size_t i, int step) {
+  const Point2 start = end_point(scan, i);
+  const double spacing = std::abs(scan.angle_increment_rad) * scan.ranges_m[i];
+  const double gap = std::max(kSmallestGap_m, kGapsPerSpacing * spacing);
+  Point2 last = start;
+  const auto count = static_cast<std::ptrdiff_t>(scan.ranges_m.size());
+  for (auto j = static_cast<std::ptrdiff_t>(i) + step; j >= 0 && j < count; j += step) {
+    const auto next = static_cast<std::size_t>(j);
+    if (!scan.is_valid_range(scan.ranges_m[next])) break;
+    const Point2 p = end_point(scan, next);
+    if (std::hypot(p.x - last.x, p.y - last.y) > gap) break;
+    last = p;
+    if (std::hypot(p.x - start.x, p.y - start.y) >= kHalfBase_m) break;
+  }
+  return last;
+}
+
+std::optional<Point2> tangent_at(const LaserScan& scan, std::size_t i) {
+  const Point2 a = follow_surface(scan, i, -1), b = follow_surface(scan, i, 1);
+  const double length = std::hypot(b.x - a.x, b.y - a.y);
+  if (length < kHalfBase_m) return std::nullopt;
+  return Point2{(b.x - a.x) / length, (b.y - a.y) / length};
+}
+
+PreparedScan prepare(const LaserScan& scan, const Pose2& T_base_sensor, const BeamLimits& limits,
+                     const VectorLaserOptions& o) {
+  PreparedScan prepared{{T_base_sensor.x, T_base_sensor.y}, {}, 1.0, 0.0};
+  const double c = std::cos(T_base_sensor.theta), s = std::sin(T_base_sensor.theta);
+  double longest = 0.0;
+  for (const std::size_t i : select_beams(scan, limits, o.max_beams)) {
+    const double angle = scan.angle_min_rad + static_cast<double>(i) * scan.angle_increment_rad;
+    std::optional<Point2> tangent = tangent_at(scan, i);
+    if (tangent) tangent = rotate(c, s, *tangent);
+    prepared.beams.push_back({rotate(c, s, {std::cos(angle), std::sin(angle)}), scan.ranges_m[i], tangent});
+    longest = std::max<double>(longest, scan.ranges_m[i]);
+  }
+  if (scan.angle_increment_rad < 0.0) std::reverse(prepared.beams.begin(), prepared.beams.end());
+  const double beams = std::max<double>(1.0, static_cast<double>(prepared.beams.size()));
+  prepared.scale = std::min(1.0, o.effective_beams / beams);
+  // Walls further behind the end points than this change nothing.
+  prepared.reach_m = longest + std::max({o.obstacle_m, o.short_hit_m, o.gate_m}) + 1.0;
+  return prepared;
+}
+
+// The pieces of a scene, asked for by directions that mostly go round counter-clockwise.
+class PieceFinder {
+ public:
+  explicit PieceFinder(const std::vector<VisiblePiece>& pieces) : pieces_(pieces) {}
+
+  const VisiblePiece* at(double turn) {
+    if (!(turn >= before_)) next_ = 0;
+    before_ = turn;
+    while (next_ < pieces_.size() && pieces_[next_].turn_end <= turn) ++next_;
+    const bool found = next_ < pieces_.size() && pieces_[next_].turn_begin <= turn;
+    return found ? &pieces_[next_] : nullptr;
+  }
+
+ private:
+  const std::vector<VisiblePiece>& pieces_;
+  std::size_t next_ = 0;
+  double before_ = 0.0;
+};
+
+// Calls `visit(correspondence or nullptr)` for each beam of the scan seen from a pose.
+template <class Visit>
+void for_each_beam(const PreparedScan& scan, const Pose2& T_map_base, const VectorLaserOptions& o,
+                   VisibilityRenderer& renderer, const VectorMap& map, const Visit& visit) {
+  const double c = std::cos(T_map_base.theta), s = std::sin(T_map_base.theta);
+  const double cos_gate = std::cos(o.gate_rad);
+  const Point2 lever = rotate(c, s, scan.sensor);
+  const Point2 viewpoint{T_map_base.x + lever.x, T_map_base.y + lever.y};
+  PieceFinder finder(renderer.render(viewpoint, scan.reach_m));
+  for (const Beam& beam : scan.beams) {
+    const Point2 u = rotate(c, s, beam.direction);
+    const VisiblePiece* const piece = finder.at(turn_of(u));
+    if (piece == nullptr) {
+      visit(nullptr);
+      continue;
+    }
+    const Wall& wall = map.walls()[piece->wall];
+    const double dx = wall.b.x - wall.a.x, dy = wall.b.y - wall.a.y, length = std::hypot(dx, dy);
+    const Point2 along{dx / length, dy / length};
+    // The normal points away from the scanner, so that what lies before the wall has a negative residual.
+    const double distance = along.y * (wall.a.x - viewpoint.x) - along.x * (wall.a.y - viewpoint.y);
+    const double side = distance < 0.0 ? -1.0 : 1.0;
+    Correspondence found;
+    found.normal = {side * along.y, -side * along.x};
+    const double cosine = dot(found.normal, u);
+    if (!(std::abs(distance) <= scan.reach_m * cosine)) {  // seen, but beyond the circle of that radius
+      visit(nullptr);
+      continue;
+    }
+    found.residual_m = beam.range_m * cosine - std::abs(distance);
+    found.end = {lever.x + beam.range_m * u.x, lever.y + beam.range_m * u.y};
+    found.before_wall = found.residual_m < 0.0;
+    found.gated = std::abs(found.residual_m) <= o.gate_m && beam.tangent &&
+                  std::abs(dot(rotate(c, s, *beam.tangent), along)) >= cos_gate;
+    visit(&found);
+  }
+}
+
+// log(exp(-r^2 / (2 sigma^2)) + exp(-c^2 / (2 sigma^2))) and how much of it is the first term.
+struct Hit {
+  Hit(double residual, double cap, double sigma) {
+    const double a = -residual * residual / (2.0 * sigma * sigma), b = -cap * cap / (2.0 * sigma * sigma);
+    const double larger = std::max(a, b), sum = std::exp(a - larger) + std::exp(b - larger);
+    log_likelihood = larger + std::log(sum);
+    share = std::exp(a - larger) / sum;
+  }
+  double log_likelihood, share;
+};
+
+Hit hit_of(const Correspondence& found, const VectorLaserOptions& o) {
+  return {found.residual_m, found.before_wall ? o.obstacle_m : o.short_hit_m, o.sigma_m};
+}
+
+double log_likelihood_at(const PreparedScan& scan, const Pose2& T_map_base, const VectorLaserOptions& o,
+                         VisibilityRenderer& renderer, const VectorMap& map) {
+  const double none = -o.out_of_range_m * o.out_of_range_m / (2.0 * o.sigma_m * o.sigma_m);
+  double sum = 0.0;
+  for_each_beam(scan, T_map_base, o, renderer, map, [&](const Correspondence* found) {
+    sum += found == nullptr ? none : hit_of(*found, o).log_likelihood;
+  });
+  return scan.scale * sum;
+}
+
+Eigen::Vector3d gradient_at(const PreparedScan& scan, const Pose2& T_map_base, const VectorLaserOptions& o,
+                            VisibilityRenderer& renderer, const VectorMap& map) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for_each_beam(scan, T_map_base, o, renderer, map, [&](const Correspondence* found) {
+    if (found == nullptr || !found->gated) return;
+    const double slope = -hit_of(*found, o).share * found->residual_m / (o.sigma_m * o.sigma_m);
+    // Turning by dtheta moves the end point by dtheta times its lever, turned left.
+    const double turning = dot(found->normal, {-found->end.y, found->end.x});
+    sum += slope * Eigen::Vector3d(found->normal.x, found->normal.y, turning);
+  });
+  return scan.scale * sum;
+}
+
+}  // namespace
+
+void VectorLaserOptions::visit(OptionVisitor& v) {
+  const Range length{1e-3, 100.0};
+  v.number({"sigma_m", "standard deviation of the end points' distance to the line of their wall, metres"},
+           sigma_m, length);
+  v.number({"obstacle_m", "a beam that ends before its wall counts for no more than this far off it, metres"},
+           obstacle_m, length);
+  v.number({"short_hit_m", "likewise a beam that ends behind its wall, metres"}, short_hit_m, length);
+  v.number({"out_of_range_m", "likewise a beam in whose direction the map has no wall, metres"},
+           out_of_range_m, length);
+  v.number({"gate_m", "the gradient uses end points up to this far off their wall, metres"}, gate_m, length);
+  v.number({"gate_rad", "and up to this angle between the directions of scan and wall, radians"}, gate_rad,
+           {0.0, 1.6});
+  v.integer({"max_beams", "evaluated beams per scan, spread evenly over the valid ones; 0: all"}, max_beams,
+            {0, 100000});
+  v.number({"effective_beams", "a scan never counts for more than this many independent beams"},
+           effective_beams, {1e-4, 100000});
+}
+
+VectorLaser::VectorLaser(std::shared_ptr<const WallGrid> walls, const Pose2& T_base_sensor,
+                         const BeamLimits& limits, const VectorLaserOptions& options)
+    : walls_(std::move(walls)), T_base_sensor_(T_base_sensor), limits_(limits), options_(options) {}
+
+BoundUpdate<Pose2> VectorLaser::bind(const LaserScan& scan) const {
+  const auto prepared =
+      std::make_shared<const PreparedScan>(prepare(scan, T_base_sensor_, limits_, options_));
+  const auto log_likelihood = [prepared, walls = walls_, o = options_](std::span<const Pose2> states,
+                                                                       std::span<double> out) {
+    VisibilityRenderer renderer(*walls);
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      out[i] = log_likelihood_at(*prepared, states[i], o, renderer, walls->map());
+    }
+  };
+  const auto gradient = [prepared, walls = walls_, o = options_](std::span<const Pose2> states,
+                                                                 std::span<Eigen::Vector3d> out) {
+    VisibilityRenderer renderer(*walls);
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      out[i] = gradient_at(*prepared, states[i], o, renderer, walls->map());
+    }
+  };
+  return {.stamp = scan.stamp, .log_likelihood = log_likelihood, .gradient = gradient};
+}
+
+double VectorLaser::explained_share(const LaserScan& scan, const Pose2& T_map_base) const {
+  const PreparedScan prepared = prepare(scan, T_base_sensor_, limits_, options_);
+  VisibilityRenderer renderer(*walls_);
+  std::size_t explained = 0;
+  for_each_beam(prepared, T_map_base, options_, renderer, walls_->map(), [&](const Correspondence* found) {
+    explained += found != nullptr && std::abs(found->residual_m) <= kExplained_m ? 1 : 0;
+  });
+  return prepared.beams.empty() ? 0.0
+                                : static_cast<double>(explained) / static_cast<double>(prepared.beams.size());
+}
+
+}  // namespace cairn
