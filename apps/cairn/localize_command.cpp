@@ -258,7 +258,8 @@ int run_localize(const Arguments& arguments) {
 void add_localize(CLI::App& program, Runner& run) {
   auto* command = program.add_subcommand("localize", "Localize a recorded robot in a map");
   auto a = std::make_shared<Arguments>();
-  command->add_option("--map", a->map, "Map (map_server YAML, Wean; vector map: text, GeoJSON)")->required();
+  command->add_option("--map", a->map, "Map (map_server YAML, Wean; vector map: text, GeoJSON, DXF)")
+      ->required();
   command->add_option("--log", a->log, "Recording (CARMEN, ROS 1 or ROS 2 bag, MCAP, Wean, MRPT text)")
       ->required();
   command->add_option(

@@ -183,7 +183,7 @@ void add_build(CLI::App& parent, Runner& run) {
 void add_info(CLI::App& parent, Runner& run) {
   auto* command = parent.add_subcommand("info", "Size, place, shares and checksum of a map");
   auto a = std::make_shared<InfoArguments>();
-  command->add_option("MAP", a->map, "map_server YAML file, Wean map, or vector map (text, GeoJSON)")
+  command->add_option("MAP", a->map, "map_server YAML file, Wean map, or vector map (text, GeoJSON, DXF)")
       ->required();
   command->add_flag("--json", a->json, "Print JSON (m, rad)");
   command->callback([a, &run] { run = [a] { return run_info(*a); }; });

@@ -26,7 +26,8 @@ constexpr Material kMaterials[] = {Material::kOpaque, Material::kGlass, Material
 
 struct ConvertArguments {
   std::string from, to;
-  std::vector<std::string> inside;
+  std::vector<std::string> inside, layers;
+  DxfOptions dxf;
   WallDrawingOptions drawing;
   WallExtractionOptions extraction;
   NdtMapOptions ndt;
@@ -45,6 +46,19 @@ Point2 parse_point(const std::string& text) {
     throw ConfigurationError("--inside", "'" + text + "' is no point", "give x,y in metres");
   }
   return p;
+}
+
+// LAYER=MATERIAL
+void add_layer(const std::string& text, DxfOptions& dxf) {
+  const std::size_t equals = text.rfind('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw ConfigurationError("--layer", "'" + text + "' is no assignment", "give NAME=MATERIAL");
+  }
+  try {
+    dxf.layers[text.substr(0, equals)] = material_named(text.substr(equals + 1));
+  } catch (const InputError& error) {
+    throw ConfigurationError("--layer", error.what(), "");
+  }
 }
 
 enum class Kind { kGrid, kWalls, kNdt };
@@ -98,9 +112,10 @@ void convert(const AnyMap& map, Kind to, const ConvertArguments& arguments) {
 int run_convert(ConvertArguments arguments) {
   const Kind to = wanted_kind(arguments.to);
   for (const std::string& point : arguments.inside) arguments.drawing.inside.push_back(parse_point(point));
+  for (const std::string& layer : arguments.layers) add_layer(layer, arguments.dxf);
   prepare_output_file(arguments.to);
   Diagnostics diagnostics;
-  const AnyMap map = read_any_map(arguments.from, diagnostics);
+  const AnyMap map = read_any_map(arguments.from, diagnostics, arguments.dxf);
   for (const auto& [kind, count] : diagnostics.counts()) {
     spdlog::warn("{}: {} ({} times)", arguments.from, kind, count);
   }
@@ -114,7 +129,7 @@ void add_map_convert(CLI::App& parent, Runner& run) {
   auto* command = parent.add_subcommand(
       "convert", "Grid to vector map (its straight walls), vector map to grid, or to the other format");
   auto a = std::make_shared<ConvertArguments>();
-  command->add_option("FROM", a->from, "Map to read (map_server YAML, Wean, x1,y1,x2,y2 text, GeoJSON)")
+  command->add_option("FROM", a->from, "Map to read (map_server YAML, Wean, x1,y1,x2,y2 text, GeoJSON, DXF)")
       ->required();
   command
       ->add_option("TO", a->to,
@@ -137,6 +152,12 @@ void add_map_convert(CLI::App& parent, Runner& run) {
                    "Most that cells of a grid may lie off their wall, cells")
       ->capture_default_str()
       ->check(CLI::Range(0.1, 100.0));
+  command->add_option("--layer", a->layers,
+                      "NAME=MATERIAL (opaque, glass, mesh, mirror) of a layer of a drawing; may be repeated");
+  command
+      ->add_option("--unit", a->dxf.unit_m,
+                   "Metres per unit of a drawing, where it tells none or a wrong one")
+      ->check(CLI::Range(1e-9, 1e6));
   command->callback([a, &run] { run = [a] { return run_convert(*a); }; });
 }
 

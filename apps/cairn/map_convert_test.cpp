@@ -64,6 +64,17 @@ TEST_F(MapConvert, InsideSaysWhatIsFree) {
   EXPECT_THROW(convert("room.txt", "out.yaml", "--inside=2,"), ConfigurationError);
 }
 
+TEST_F(MapConvert, LayersOfADrawingHaveMaterials) {
+  std::ofstream(folder_ / "d.dxf") << "0\nSECTION\n2\nENTITIES\n0\nLINE\n8\nA\n10\n0\n20\n0\n11\n100\n21\n0\n"
+                                      "0\nENDSEC\n0\nEOF\n";
+  convert("d.dxf", "d.geojson", "--layer A=mesh --unit 0.01");
+  EXPECT_EQ(info("d.geojson")["materials"]["mesh"], 1);
+  EXPECT_DOUBLE_EQ(info("d.geojson")["length_m"], 1.0);
+  EXPECT_DOUBLE_EQ(info("d.dxf")["length_m"], 100.0);
+  EXPECT_THROW(convert("d.dxf", "d.geojson", "--layer A=wood"), ConfigurationError);
+  EXPECT_THROW(convert("d.dxf", "d.geojson", "--layer A"), ConfigurationError);
+}
+
 TEST_F(MapConvert, RefusesWhatItCannotWrite) {
   EXPECT_THROW(convert("room.txt", "room.map"), ConfigurationError);
   EXPECT_THROW(convert("missing.txt", "room.yaml"), InputError);

@@ -10,8 +10,8 @@ namespace cairn {
 
 struct GradientRefinementOptions {
   int steps = 3;              ///< r
-  double eta_position = 0.4;  ///< share of the way to the maximum along the gradient, position
-  double eta_heading = 0.2;   ///< likewise, heading
+  double eta_position = 0.8;  ///< share of the way to the maximum along the gradient, position
+  double eta_heading = 0.6;   ///< likewise, heading
   double max_step_m = 0.1;
   double max_step_rad = 0.17453292519943295;  ///< 10 degrees
   double lever_m = 3.0;                       ///< a turn by 1 rad counts like a way of this length
@@ -31,9 +31,10 @@ struct GradientRefinementOptions {
 ///         particles drawn together by refinement do not count for more than the motion allows
 /// The filter then weighs with p(z | x) and resamples.
 ///
-/// Step sizes: the published code moves by eta times the mean offset of the matched points. A gradient alone
-/// has no scale, so a second gradient, a centimetre further on, tells where along it the maximum lies (from
-/// the second step on, the step before does); the step is eta of that way. Position and heading are bounded
+/// Step sizes: the published code moves by 0.4 times the mean offset of the matched points and turns by 0.2
+/// times; where walls run in two directions, the mean is half of the way or less. A gradient alone has no
+/// scale, so a second gradient, a centimetre further on, tells where along it the maximum lies; the step is
+/// eta of that way. Position and heading are bounded
 /// by max_step. Where the likelihood is not concave, the step has the bounded length.
 class GradientRefinement final : public Refinement<Pose2> {
  public:

@@ -20,10 +20,10 @@ struct DxfOptions {
   double chord_tolerance_m = 0.005;
 };
 
-/// Reads a vector map from a drawing (ASCII DXF, R12 to 2018): LINE, LWPOLYLINE and POLYLINE with bulges, ARC,
-/// CIRCLE, and INSERT of blocks, nested, scaled, turned, mirrored and in rows and columns. What lies on layer 0
-/// of a block is on the layer of the insertion. Drawings are seen from above; entities in paper space and
-/// those of other kinds are left out.
+/// Reads a vector map from a drawing (ASCII DXF, R12 to 2018): LINE, LWPOLYLINE and POLYLINE with bulges,
+/// ARC, CIRCLE, and INSERT of blocks, nested, scaled, turned, mirrored and in rows and columns. What lies on
+/// layer 0 of a block is on the layer of the insertion. Drawings are seen from above; entities in paper space
+/// and those of other kinds are left out.
 /// @param diagnostics  counts what was left out: other entities by their kind, "paper space", walls without
 ///   length ("zero-length segment"), and "no unit in the drawing" where metres are assumed
 /// @throws InputError file:line for text that is no DXF, a value of another kind, a coordinate out of range,

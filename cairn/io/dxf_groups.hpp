@@ -24,6 +24,7 @@ class DxfGroups {
   long long integer() const;
 
   std::string where() const { return line_.where(); }
+  int line_number() const { return line_.number(); }
   const std::string& name() const { return line_.name(); }
   [[noreturn]] void fail(const std::string& what, const std::string& remedy) const;
 

@@ -1,6 +1,7 @@
 #include "cairn/io/map_reader.hpp"
 
 #include "cairn/core/errors.hpp"
+#include "cairn/io/dxf.hpp"
 #include "cairn/io/geojson.hpp"
 #include "cairn/io/gray_image.hpp"
 #include "cairn/io/input_file.hpp"
@@ -65,7 +66,7 @@ std::shared_ptr<const OccupancyGrid> draw(const VectorMap& map) {
 
 }  // namespace
 
-AnyMap read_any_map(const std::filesystem::path& path, Diagnostics& diagnostics) {
+AnyMap read_any_map(const std::filesystem::path& path, Diagnostics& diagnostics, const DxfOptions& dxf) {
   const auto input = open_input(path);
   const std::string start = first_bytes(*input);
   if (looks_like_image(start)) {
@@ -74,6 +75,7 @@ AnyMap read_any_map(const std::filesystem::path& path, Diagnostics& diagnostics)
   if (looks_like_wean_map(start)) return share(read_wean_map(*input, path.string()));
   if (looks_like_ndt(start)) return read_ndt(*input, path.string());
   if (looks_like_geojson(start)) return share(read_geojson(*input, path.string(), diagnostics));
+  if (looks_like_dxf(start)) return share(read_dxf(*input, path.string(), dxf, diagnostics));
   if (looks_like_vector_text(start)) return share(read_vector_text(*input, path.string(), diagnostics));
   return share(read_yaml_map(*input, path, diagnostics));
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cairn/core/diagnostics.hpp"
+#include "cairn/io/dxf.hpp"
 #include "cairn/maps/map_set.hpp"
 #include "cairn/maps/ndt_map.hpp"
 #include "cairn/maps/occupancy_grid.hpp"
@@ -23,9 +24,10 @@ std::shared_ptr<const OccupancyGrid> read_map(const std::filesystem::path& path)
 using AnyMap = std::variant<std::shared_ptr<const OccupancyGrid>, std::shared_ptr<const VectorMap>,
                             std::shared_ptr<const NdtMap>>;
 
-/// Reads an occupancy map, a vector map (`x1,y1,x2,y2` text, GeoJSON) or an NDT map: told by content.
+/// Reads an occupancy map, a vector map (`x1,y1,x2,y2` text, GeoJSON, DXF) or an NDT map: told by content.
+/// @param dxf  how a drawing is read
 /// @throws InputError as read_map
-AnyMap read_any_map(const std::filesystem::path& path, Diagnostics& diagnostics);
+AnyMap read_any_map(const std::filesystem::path& path, Diagnostics& diagnostics, const DxfOptions& dxf = {});
 
 /// The same as a set of maps for a localizer. A vector map comes with the grid that is drawn from it
 /// (draw_walls, 5 cm; coarser if that would be more than 10^8 cells).

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -9,6 +10,7 @@ namespace cairn {
 namespace {
 
 constexpr double kExplained_m = 0.15;
+constexpr double kEverything_m = 1e9;
 // The direction of the scan at an end point is that between points this far to both sides.
 constexpr double kHalfBase_m = 0.15;
 constexpr double kSmallestGap_m = 0.3;  // between neighbours of one surface; wider where beams are sparse
@@ -20,19 +22,18 @@ struct Beam {
   std::optional<Point2> tangent;  ///< of the scan there, unit length, base frame
 };
 
-// A scan as the evaluation needs it: beams counter-clockwise.
+// A scan as the evaluation needs it.
 struct PreparedScan {
   Point2 sensor;  ///< base frame
   std::vector<Beam> beams;
   double scale = 1.0;
-  double reach_m = 0.0;
 };
 
-// A beam and the wall that is seen in its direction.
+// A beam and the nearest piece of a wall that is seen about its end point.
 struct Correspondence {
   Point2 end;         ///< end point relative to the base, map frame's axes
-  Point2 normal;      ///< of the wall, unit length
-  double residual_m;  ///< signed distance of the end point to the line, along the normal
+  Point2 away;        ///< from the wall to the end point, unit length; zero if it lies on the wall
+  double distance_m;  ///< of the end point to the piece
   bool before_wall;
   bool gated;  ///< near its wall and running along it
 };
@@ -72,78 +73,66 @@ std::optional<Point2> tangent_at(const LaserScan& scan, std::size_t i) {
 
 PreparedScan prepare(const LaserScan& scan, const Pose2& T_base_sensor, const BeamLimits& limits,
                      const VectorLaserOptions& o) {
-  PreparedScan prepared{{T_base_sensor.x, T_base_sensor.y}, {}, 1.0, 0.0};
+  PreparedScan prepared{{T_base_sensor.x, T_base_sensor.y}, {}, 1.0};
   const double c = std::cos(T_base_sensor.theta), s = std::sin(T_base_sensor.theta);
-  double longest = 0.0;
   for (const std::size_t i : select_beams(scan, limits, o.max_beams)) {
     const double angle = scan.angle_min_rad + static_cast<double>(i) * scan.angle_increment_rad;
     std::optional<Point2> tangent = tangent_at(scan, i);
     if (tangent) tangent = rotate(c, s, *tangent);
     prepared.beams.push_back({rotate(c, s, {std::cos(angle), std::sin(angle)}), scan.ranges_m[i], tangent});
-    longest = std::max<double>(longest, scan.ranges_m[i]);
   }
-  if (scan.angle_increment_rad < 0.0) std::reverse(prepared.beams.begin(), prepared.beams.end());
   const double beams = std::max<double>(1.0, static_cast<double>(prepared.beams.size()));
   prepared.scale = std::min(1.0, o.effective_beams / beams);
-  // Walls further behind the end points than this change nothing.
-  prepared.reach_m = longest + std::max({o.obstacle_m, o.short_hit_m, o.gate_m}) + 1.0;
   return prepared;
 }
 
-// The pieces of a scene, asked for by directions that mostly go round counter-clockwise.
-class PieceFinder {
- public:
-  explicit PieceFinder(const std::vector<VisiblePiece>& pieces) : pieces_(pieces) {}
-
-  const VisiblePiece* at(double turn) {
-    if (!(turn >= before_)) next_ = 0;
-    before_ = turn;
-    while (next_ < pieces_.size() && pieces_[next_].turn_end <= turn) ++next_;
-    const bool found = next_ < pieces_.size() && pieces_[next_].turn_begin <= turn;
-    return found ? &pieces_[next_] : nullptr;
+// Calls `visit(piece)` for each piece seen between two turns, counter-clockwise from the first to the second.
+template <class Visit>
+void for_each_between(const std::vector<VisiblePiece>& pieces, double from, double to, const Visit& visit) {
+  if (!(from <= to)) {  // across the turn where counting begins; or not a number
+    if (from > to) for_each_between(pieces, from, 8.0, visit), for_each_between(pieces, 0.0, to, visit);
+    return;
   }
+  const auto ends_before = [&](const VisiblePiece& piece) { return piece.turn_end <= from; };
+  auto piece = std::partition_point(pieces.begin(), pieces.end(), ends_before);
+  for (; piece != pieces.end() && piece->turn_begin <= to; ++piece) visit(*piece);
+}
 
- private:
-  const std::vector<VisiblePiece>& pieces_;
-  std::size_t next_ = 0;
-  double before_ = 0.0;
-};
+// Takes the piece into the correspondence if it is the nearest so far.
+void match(const VisiblePiece& piece, const Point2& p, const Beam& beam, const Point2& u,
+           const Point2& tangent, const VectorLaserOptions& o, Correspondence& found) {
+  const Point2 d{piece.end.x - piece.begin.x, piece.end.y - piece.begin.y};
+  const double length2 = dot(d, d);
+  if (!(length2 > 0.0)) return;
+  const double along = std::clamp(dot({p.x - piece.begin.x, p.y - piece.begin.y}, d) / length2, 0.0, 1.0);
+  const Point2 offset{p.x - piece.begin.x - along * d.x, p.y - piece.begin.y - along * d.y};
+  const double distance = std::hypot(offset.x, offset.y);
+  if (!(distance < found.distance_m)) return;
+  found.distance_m = distance;
+  found.away = distance > 0.0 ? Point2{offset.x / distance, offset.y / distance} : Point2{};
+  found.before_wall = dot(offset, u) < 0.0;
+  const double cosine = beam.tangent ? std::abs(dot(tangent, d)) / std::sqrt(length2) : -1.0;
+  found.gated = distance <= o.gate_m && cosine >= std::cos(o.gate_rad);
+}
 
 // Calls `visit(correspondence or nullptr)` for each beam of the scan seen from a pose.
 template <class Visit>
 void for_each_beam(const PreparedScan& scan, const Pose2& T_map_base, const VectorLaserOptions& o,
-                   VisibilityRenderer& renderer, const VectorMap& map, const Visit& visit) {
+                   VisibilityRenderer& renderer, const Visit& visit) {
   const double c = std::cos(T_map_base.theta), s = std::sin(T_map_base.theta);
-  const double cos_gate = std::cos(o.gate_rad);
   const Point2 lever = rotate(c, s, scan.sensor);
   const Point2 viewpoint{T_map_base.x + lever.x, T_map_base.y + lever.y};
-  PieceFinder finder(renderer.render(viewpoint, scan.reach_m));
+  const std::vector<VisiblePiece>& pieces = renderer.render(viewpoint, kEverything_m);
   for (const Beam& beam : scan.beams) {
-    const Point2 u = rotate(c, s, beam.direction);
-    const VisiblePiece* const piece = finder.at(turn_of(u));
-    if (piece == nullptr) {
-      visit(nullptr);
-      continue;
-    }
-    const Wall& wall = map.walls()[piece->wall];
-    const double dx = wall.b.x - wall.a.x, dy = wall.b.y - wall.a.y, length = std::hypot(dx, dy);
-    const Point2 along{dx / length, dy / length};
-    // The normal points away from the scanner, so that what lies before the wall has a negative residual.
-    const double distance = along.y * (wall.a.x - viewpoint.x) - along.x * (wall.a.y - viewpoint.y);
-    const double side = distance < 0.0 ? -1.0 : 1.0;
-    Correspondence found;
-    found.normal = {side * along.y, -side * along.x};
-    const double cosine = dot(found.normal, u);
-    if (!(std::abs(distance) <= scan.reach_m * cosine)) {  // seen, but beyond the circle of that radius
-      visit(nullptr);
-      continue;
-    }
-    found.residual_m = beam.range_m * cosine - std::abs(distance);
-    found.end = {lever.x + beam.range_m * u.x, lever.y + beam.range_m * u.y};
-    found.before_wall = found.residual_m < 0.0;
-    found.gated = std::abs(found.residual_m) <= o.gate_m && beam.tangent &&
-                  std::abs(dot(rotate(c, s, *beam.tangent), along)) >= cos_gate;
-    visit(&found);
+    const Point2 u = rotate(c, s, beam.direction), tangent = rotate(c, s, beam.tangent.value_or(Point2{}));
+    const Point2 end{beam.range_m * u.x, beam.range_m * u.y}, aside{-o.margin_m * u.y, o.margin_m * u.x};
+    Correspondence found{
+        {lever.x + end.x, lever.y + end.y}, {}, std::numeric_limits<double>::infinity(), false, false};
+    const Point2 p{viewpoint.x + end.x, viewpoint.y + end.y};
+    for_each_between(pieces, turn_of({end.x - aside.x, end.y - aside.y}),
+                     turn_of({end.x + aside.x, end.y + aside.y}),
+                     [&](const VisiblePiece& piece) { match(piece, p, beam, u, tangent, o, found); });
+    visit(std::isfinite(found.distance_m) ? &found : nullptr);
   }
 }
 
@@ -159,28 +148,28 @@ struct Hit {
 };
 
 Hit hit_of(const Correspondence& found, const VectorLaserOptions& o) {
-  return {found.residual_m, found.before_wall ? o.obstacle_m : o.short_hit_m, o.sigma_m};
+  return {found.distance_m, found.before_wall ? o.obstacle_m : o.short_hit_m, o.sigma_m};
 }
 
 double log_likelihood_at(const PreparedScan& scan, const Pose2& T_map_base, const VectorLaserOptions& o,
-                         VisibilityRenderer& renderer, const VectorMap& map) {
+                         VisibilityRenderer& renderer) {
   const double none = -o.out_of_range_m * o.out_of_range_m / (2.0 * o.sigma_m * o.sigma_m);
   double sum = 0.0;
-  for_each_beam(scan, T_map_base, o, renderer, map, [&](const Correspondence* found) {
+  for_each_beam(scan, T_map_base, o, renderer, [&](const Correspondence* found) {
     sum += found == nullptr ? none : hit_of(*found, o).log_likelihood;
   });
   return scan.scale * sum;
 }
 
 Eigen::Vector3d gradient_at(const PreparedScan& scan, const Pose2& T_map_base, const VectorLaserOptions& o,
-                            VisibilityRenderer& renderer, const VectorMap& map) {
+                            VisibilityRenderer& renderer) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for_each_beam(scan, T_map_base, o, renderer, map, [&](const Correspondence* found) {
+  for_each_beam(scan, T_map_base, o, renderer, [&](const Correspondence* found) {
     if (found == nullptr || !found->gated) return;
-    const double slope = -hit_of(*found, o).share * found->residual_m / (o.sigma_m * o.sigma_m);
+    const double slope = -hit_of(*found, o).share * found->distance_m / (o.sigma_m * o.sigma_m);
     // Turning by dtheta moves the end point by dtheta times its lever, turned left.
-    const double turning = dot(found->normal, {-found->end.y, found->end.x});
-    sum += slope * Eigen::Vector3d(found->normal.x, found->normal.y, turning);
+    const double turning = dot(found->away, {-found->end.y, found->end.x});
+    sum += slope * Eigen::Vector3d(found->away.x, found->away.y, turning);
   });
   return scan.scale * sum;
 }
@@ -189,13 +178,17 @@ Eigen::Vector3d gradient_at(const PreparedScan& scan, const Pose2& T_map_base, c
 
 void VectorLaserOptions::visit(OptionVisitor& v) {
   const Range length{1e-3, 100.0};
-  v.number({"sigma_m", "standard deviation of the end points' distance to the line of their wall, metres"},
-           sigma_m, length);
+  v.number(
+      {"sigma_m", "standard deviation of the end points' distance to the wall that is seen there, metres"},
+      sigma_m, length);
   v.number({"obstacle_m", "a beam that ends before its wall counts for no more than this far off it, metres"},
            obstacle_m, length);
   v.number({"short_hit_m", "likewise a beam that ends behind its wall, metres"}, short_hit_m, length);
   v.number({"out_of_range_m", "likewise a beam in whose direction the map has no wall, metres"},
            out_of_range_m, length);
+  v.number(
+      {"margin_m", "end points correspond to walls that are seen within this far to their sides, metres"},
+      margin_m, length);
   v.number({"gate_m", "the gradient uses end points up to this far off their wall, metres"}, gate_m, length);
   v.number({"gate_rad", "and up to this angle between the directions of scan and wall, radians"}, gate_rad,
            {0.0, 1.6});
@@ -216,14 +209,14 @@ BoundUpdate<Pose2> VectorLaser::bind(const LaserScan& scan) const {
                                                                        std::span<double> out) {
     VisibilityRenderer renderer(*walls);
     for (std::size_t i = 0; i < states.size(); ++i) {
-      out[i] = log_likelihood_at(*prepared, states[i], o, renderer, walls->map());
+      out[i] = log_likelihood_at(*prepared, states[i], o, renderer);
     }
   };
   const auto gradient = [prepared, walls = walls_, o = options_](std::span<const Pose2> states,
                                                                  std::span<Eigen::Vector3d> out) {
     VisibilityRenderer renderer(*walls);
     for (std::size_t i = 0; i < states.size(); ++i) {
-      out[i] = gradient_at(*prepared, states[i], o, renderer, walls->map());
+      out[i] = gradient_at(*prepared, states[i], o, renderer);
     }
   };
   return {.stamp = scan.stamp, .log_likelihood = log_likelihood, .gradient = gradient};
@@ -233,8 +226,8 @@ double VectorLaser::explained_share(const LaserScan& scan, const Pose2& T_map_ba
   const PreparedScan prepared = prepare(scan, T_base_sensor_, limits_, options_);
   VisibilityRenderer renderer(*walls_);
   std::size_t explained = 0;
-  for_each_beam(prepared, T_map_base, options_, renderer, walls_->map(), [&](const Correspondence* found) {
-    explained += found != nullptr && std::abs(found->residual_m) <= kExplained_m ? 1 : 0;
+  for_each_beam(prepared, T_map_base, options_, renderer, [&](const Correspondence* found) {
+    explained += found != nullptr && found->distance_m <= kExplained_m ? 1 : 0;
   });
   return prepared.beams.empty() ? 0.0
                                 : static_cast<double>(explained) / static_cast<double>(prepared.beams.size());

@@ -10,10 +10,11 @@
 namespace cairn {
 
 struct VectorLaserOptions {
-  double sigma_m = 0.05;        ///< distance of end points to the line of their wall, standard deviation
+  double sigma_m = 0.05;        ///< distance of end points to the wall that is seen there, standard deviation
   double obstacle_m = 0.15;     ///< a beam that ends before its wall counts for no more than this far off it
   double short_hit_m = 0.15;    ///< likewise one that ends behind its wall
   double out_of_range_m = 0.2;  ///< likewise one in whose direction the map has no wall
+  double margin_m = 0.1;        ///< end points correspond to walls that are seen within this to their sides
   double gate_m = 0.5;          ///< the gradient uses end points up to this far off their wall
   double gate_rad =
       0.5235987755982988;         ///< and this much between the directions of scan and wall (30 degrees)
@@ -27,9 +28,10 @@ struct VectorLaserOptions {
 /// "Corrective Gradient Refinement for Mobile Robot Localization", IROS 2011; Biswas & Veloso,
 /// "Multi-Sensor Mobile Robot Localization for Diverse Environments", 2.1).
 ///
-/// The scene is rendered from the pose of the scanner; a beam corresponds to the wall that is seen in its
-/// direction. With r_k, the distance of its end point to the line through that wall,
-///   log p(z | x) = s * sum_k log(exp(-r_k^2 / (2 sigma^2)) + exp(-c_k^2 / (2 sigma^2)))
+/// The scene is rendered from the pose of the scanner; a beam corresponds to the nearest piece of a wall
+/// among those that are seen in its direction, margin_m to both sides. With d_k, the distance of its end
+/// point to that piece,
+///   log p(z | x) = s * sum_k log(exp(-d_k^2 / (2 sigma^2)) + exp(-c_k^2 / (2 sigma^2)))
 /// where c_k is obstacle_m before the wall, short_hit_m behind it, and a beam without a wall counts as
 /// out_of_range_m off one; s = min(1, effective_beams / K) since the K beams are not independent.
 ///
@@ -49,7 +51,7 @@ class VectorLaser final : public LaserModel {
   /// as one that sees no wall.
   BoundUpdate<Pose2> bind(const LaserScan& scan) const override;
 
-  /// Share of the evaluated beams that end within 0.15 m of the line of their wall.
+  /// Share of the evaluated beams that end within 0.15 m of the wall that is seen there.
   double explained_share(const LaserScan& scan, const Pose2& T_map_base) const override;
 
  private:
