@@ -187,7 +187,7 @@ TEST(Dxf, RefusesBlocksWithoutEnd) {
 }
 
 TEST(Dxf, RefusesHugeArrays) {
-  for (const std::string content : {std::string(), line(0, 0, 1, 0)}) {
+  for (const std::string& content : {std::string(), line(0, 0, 1, 0)}) {
     for (const char* size : {"70\n1000000000\n", "70\n40000\n71\n40000\n",
                              "70\n9223372036854775807\n71\n9223372036854775807\n"}) {
       EXPECT_THAT(error_of(drawing(insert("A", size), block("A", content))), HasSubstr("more than a million"))

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace cairn {
@@ -11,6 +12,7 @@ namespace {
 
 constexpr double kExplained_m = 0.15;
 constexpr double kEverything_m = 1e9;
+constexpr double kNarrowest = 1e-9;  // turn of a piece; narrower ones come and go with rounding
 // The direction of the scan at an end point is that between points this far to both sides.
 constexpr double kHalfBase_m = 0.15;
 constexpr double kSmallestGap_m = 0.3;  // between neighbours of one surface; wider where beams are sparse
@@ -98,19 +100,41 @@ void for_each_between(const std::vector<VisiblePiece>& pieces, double from, doub
   for (; piece != pieces.end() && piece->turn_begin <= to; ++piece) visit(*piece);
 }
 
+double cross(const Point2& a, const Point2& b) { return a.x * b.y - a.y * b.x; }
+
+// What an end point is compared with: what is seen between two directions beside it.
+struct Window {
+  Point2 viewpoint, end;          ///< map frame
+  Point2 right, left, direction;  ///< seen from the viewpoint
+};
+
+// The part of a piece within the window, as fractions of the way from its begin to its end.
+std::pair<double, double> part_within(const VisiblePiece& piece, const Window& w) {
+  const Point2 a{piece.begin.x - w.viewpoint.x, piece.begin.y - w.viewpoint.y};
+  const Point2 b{piece.end.x - w.viewpoint.x, piece.end.y - w.viewpoint.y};
+  const double right_a = cross(w.right, a), right_b = cross(w.right, b);
+  const double left_a = cross(w.left, a), left_b = cross(w.left, b);
+  return {right_a < 0.0 && right_b > 0.0 ? right_a / (right_a - right_b) : 0.0,
+          left_a < 0.0 && left_b > 0.0 ? left_a / (left_a - left_b) : 1.0};
+}
+
 // Takes the piece into the correspondence if it is the nearest so far.
-void match(const VisiblePiece& piece, const Point2& p, const Beam& beam, const Point2& u,
-           const Point2& tangent, const VectorLaserOptions& o, Correspondence& found) {
+void match(const VisiblePiece& piece, const Window& w, const Beam& beam, const Point2& tangent,
+           const VectorLaserOptions& o, Correspondence& found) {
+  if (!(piece.turn_end - piece.turn_begin > kNarrowest)) return;
   const Point2 d{piece.end.x - piece.begin.x, piece.end.y - piece.begin.y};
+  const Point2& p = w.end;
   const double length2 = dot(d, d);
   if (!(length2 > 0.0)) return;
-  const double along = std::clamp(dot({p.x - piece.begin.x, p.y - piece.begin.y}, d) / length2, 0.0, 1.0);
+  const auto [first, last] = part_within(piece, w);
+  const double foot = dot({p.x - piece.begin.x, p.y - piece.begin.y}, d) / length2;
+  const double along = std::min(std::max(foot, first), last);
   const Point2 offset{p.x - piece.begin.x - along * d.x, p.y - piece.begin.y - along * d.y};
   const double distance = std::hypot(offset.x, offset.y);
   if (!(distance < found.distance_m)) return;
   found.distance_m = distance;
   found.away = distance > 0.0 ? Point2{offset.x / distance, offset.y / distance} : Point2{};
-  found.before_wall = dot(offset, u) < 0.0;
+  found.before_wall = dot(offset, w.direction) < 0.0;
   const double cosine = beam.tangent ? std::abs(dot(tangent, d)) / std::sqrt(length2) : -1.0;
   found.gated = distance <= o.gate_m && cosine >= std::cos(o.gate_rad);
 }
@@ -128,10 +152,13 @@ void for_each_beam(const PreparedScan& scan, const Pose2& T_map_base, const Vect
     const Point2 end{beam.range_m * u.x, beam.range_m * u.y}, aside{-o.margin_m * u.y, o.margin_m * u.x};
     Correspondence found{
         {lever.x + end.x, lever.y + end.y}, {}, std::numeric_limits<double>::infinity(), false, false};
-    const Point2 p{viewpoint.x + end.x, viewpoint.y + end.y};
-    for_each_between(pieces, turn_of({end.x - aside.x, end.y - aside.y}),
-                     turn_of({end.x + aside.x, end.y + aside.y}),
-                     [&](const VisiblePiece& piece) { match(piece, p, beam, u, tangent, o, found); });
+    const Window window{viewpoint,
+                        {viewpoint.x + end.x, viewpoint.y + end.y},
+                        {end.x - aside.x, end.y - aside.y},
+                        {end.x + aside.x, end.y + aside.y},
+                        u};
+    for_each_between(pieces, turn_of(window.right), turn_of(window.left),
+                     [&](const VisiblePiece& piece) { match(piece, window, beam, tangent, o, found); });
     visit(std::isfinite(found.distance_m) ? &found : nullptr);
   }
 }
