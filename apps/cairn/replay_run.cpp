@@ -27,11 +27,11 @@ LocalizerOptions read_options(const fs::path& file, const std::string& configura
   return options;
 }
 
-std::shared_ptr<const OccupancyGrid> read_same_map(const std::string& path, std::uint64_t wanted) {
+std::shared_ptr<const MapSet> read_same_map(const std::string& path, std::uint64_t wanted) {
   Diagnostics diagnostics;
-  auto map = read_map(path, diagnostics);
-  const std::uint64_t found = checksum(*map);
-  if (found == wanted) return map;
+  auto maps = read_map_set(path, diagnostics);
+  const std::uint64_t found = checksum(*maps->grid());
+  if (found == wanted) return maps;
   throw InputError(
       path,
       fmt::format("is not the map of the recorded run: its checksum is {:016x}, that of the run's map was "
@@ -48,7 +48,8 @@ RecordedRun read_recorded_run(const fs::path& run, const std::string& map) {
   result.recording = read_recording(result.file);
   const RunHeader& header = result.recording.header;
   result.options = read_options(result.file, header.configuration);
-  result.map = read_same_map(map.empty() ? header.map_path : map, header.map_checksum);
+  result.maps = read_same_map(map.empty() ? header.map_path : map, header.map_checksum);
+  result.map = result.maps->grid();
   return result;
 }
 
@@ -56,6 +57,7 @@ LocalizeResult run_again(const RecordedRun& run, const LocalizerOptions& options
   Diagnostics diagnostics;
   return localize({.log = &run.recording.log,
                    .map = run.map,
+                   .maps = run.maps,
                    .stream_maps = read_stream_maps(options, diagnostics),
                    .options = options,
                    .start = {run.recording.header.T_map_base},

@@ -17,7 +17,8 @@ namespace cairn::app {
 struct RecordedRun {
   std::filesystem::path file;
   Recording recording;
-  std::shared_ptr<const OccupancyGrid> map;
+  std::shared_ptr<const MapSet> maps;
+  std::shared_ptr<const OccupancyGrid> map;  ///< the grid of `maps`
   LocalizerOptions options;
 };
 
