@@ -47,6 +47,7 @@ void GradientRefinementOptions::visit(OptionVisitor& v) {
 
 void GradientRefinement::refine(const BoundUpdate<Pose2>& z, ParticleSet<Pose2>& particles,
                                 const RandomStream& random, const Executor& executor) {
+  if (!z.gradient) return;
   predicted_ = particles.states;
   ascend(z, particles.states, executor);
   accept(z, predicted_, particles.states, random, executor);

@@ -40,7 +40,7 @@ class GradientRefinement final : public Refinement<Pose2> {
  public:
   explicit GradientRefinement(const GradientRefinementOptions& options) : options_(options) {}
 
-  /// @pre z.gradient is there (recipes check it when a localizer is built)
+  /// A measurement without gradient only weighs: nothing is moved.
   void refine(const BoundUpdate<Pose2>& z, ParticleSet<Pose2>& particles, const RandomStream& random,
               const Executor& executor) override;
 
