@@ -45,8 +45,8 @@ class Resampling : public FilterPart {
   virtual void draw(std::span<const double> cumulative, std::size_t count, const DrawingNumbers& numbers,
                     std::vector<std::uint32_t>& ancestors) = 0;
 
-  /// Says how the particles drawn since the last call are weighed, where that is not the same for all: adds to
-  /// their log-weights, in the order of drawing, up to a common constant. Returns whether it did.
+  /// Says how the particles drawn since the last call are weighed, where that is not the same for all: adds
+  /// to their log-weights, in the order of drawing, up to a common constant. Returns whether it did.
   virtual bool weigh_drawn(std::span<double> /*log_weights*/) { return false; }
 };
 

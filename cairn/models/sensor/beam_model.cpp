@@ -153,11 +153,11 @@ class BeamModel::Beams {
 
   struct Return {
     double z_m;
-    double short_;  ///< z_short lambda exp(-lambda z)
+    double unexpected;  ///< z_short lambda exp(-lambda z)
   };
   double probability(const Return& beam, double r) const {
     const double hit = hit_ * tables_->normal(std::abs(beam.z_m - r));
-    return hit + (beam.z_m <= r ? beam.short_ * tables_->short_scale(r) : 0.0) + rand_;
+    return hit + (beam.z_m <= r ? beam.unexpected * tables_->short_scale(r) : 0.0) + rand_;
   }
 
   std::shared_ptr<const RayMarcher> map_;

@@ -37,8 +37,8 @@ class BeamMixture {
 
   /// The four terms of p(z | r), each with its weight; their sum is p(z | r).
   struct Terms {
-    double hit, short_, max, rand;
-    double sum() const { return hit + short_ + max + rand; }
+    double hit, unexpected, max, rand;
+    double sum() const { return hit + unexpected + max + rand; }
   };
   Terms terms(double z_m, double expected_m) const;
   double log_likelihood(double z_m, double expected_m) const;

@@ -16,9 +16,9 @@ constexpr double kSureNoReturn = -8.0;  // standard deviations that the wall lie
 
 // What an expectation step adds up over the samples.
 struct Expectation {
-  double hit = 0.0, short_ = 0.0, max = 0.0, rand = 0.0;  ///< responsibilities
-  double square = 0.0, square_weight = 0.0;               ///< of the noise of hits
-  double short_z = 0.0;                                   ///< of short readings, sum of weight * z
+  double hit = 0.0, unexpected = 0.0, max = 0.0, rand = 0.0;  ///< responsibilities
+  double square = 0.0, square_weight = 0.0;                   ///< of the noise of hits
+  double short_z = 0.0;                                       ///< of short readings, sum of weight * z
   struct Short {
     double weight, expected_m;
   };
@@ -39,7 +39,7 @@ Expectation expect(std::span<const BeamSample> samples, double max_range_m, cons
   for (const BeamSample& s : samples) {
     const BeamMixture::Terms t = mixture.terms(s.z_m, s.expected_m);
     const double sum = t.sum();
-    const double hit = t.hit / sum, near = t.short_ / sum;
+    const double hit = t.hit / sum, near = t.unexpected / sum;
     e.log_likelihood += std::log(sum);
     e.hit += hit;
     e.max += t.max / sum;
@@ -53,7 +53,7 @@ Expectation expect(std::span<const BeamSample> samples, double max_range_m, cons
       e.square_weight += hit;
     }
     if (near < 1e-9) continue;
-    e.short_ += near;
+    e.unexpected += near;
     e.short_z += near * s.z_m;
     e.shorts.push_back({near, s.expected_m});
   }
@@ -65,7 +65,7 @@ Expectation expect(std::span<const BeamSample> samples, double max_range_m, cons
 // The left side falls with lambda.
 double best_lambda(const Expectation& e) {
   const auto slope = [&](double lambda) {
-    double sum = e.short_ / lambda - e.short_z;
+    double sum = e.unexpected / lambda - e.short_z;
     for (const auto& s : e.shorts) {
       const double exponent = lambda * s.expected_m;
       if (exponent < 700.0) sum -= s.weight * s.expected_m / std::expm1(std::max(exponent, 1e-12));
@@ -81,15 +81,15 @@ double best_lambda(const Expectation& e) {
 }
 
 BeamModelOptions maximize(const Expectation& e, BeamModelOptions o) {
-  const double sum = e.hit + e.short_ + e.max + e.rand;
+  const double sum = e.hit + e.unexpected + e.max + e.rand;
   o.z_hit = std::max(e.hit / sum, kLeastWeight);
-  o.z_short = std::max(e.short_ / sum, kLeastWeight);
+  o.z_short = std::max(e.unexpected / sum, kLeastWeight);
   o.z_max = std::max(e.max / sum, kLeastWeight);
   o.z_rand = std::max(e.rand / sum, kLeastWeight);
   if (e.square_weight > 0.0) {
     o.sigma_hit_m = std::max(std::sqrt(e.square / e.square_weight), kLeastSigma_m);
   }
-  if (e.short_ > 0.0) o.lambda_short_per_m = best_lambda(e);
+  if (e.unexpected > 0.0) o.lambda_short_per_m = best_lambda(e);
   return o;
 }
 

@@ -47,10 +47,10 @@ TEST(BeamMixture, TheTermsAreThoseOfTheBook) {
   const BeamMixture mixture(options_of(0.25, 0.25, 0.25, 0.25), kReach);
   const auto t = mixture.terms(2.0, 3.0);
   EXPECT_NEAR(t.hit, 0.25 * std::exp(-0.5 * 100.0) / (0.1 * std::sqrt(2.0 * 3.14159265358979)), 1e-30);
-  EXPECT_NEAR(t.short_, 0.25 * 0.3 * std::exp(-0.6) / (1.0 - std::exp(-0.9)), 1e-12);
+  EXPECT_NEAR(t.unexpected, 0.25 * 0.3 * std::exp(-0.6) / (1.0 - std::exp(-0.9)), 1e-12);
   EXPECT_NEAR(t.rand, 0.25 / 8.0, 1e-12);
   EXPECT_EQ(t.max, 0.0);
-  EXPECT_EQ(mixture.terms(3.1, 3.0).short_, 0.0);
+  EXPECT_EQ(mixture.terms(3.1, 3.0).unexpected, 0.0);
   EXPECT_NEAR(mixture.terms(8.0, 8.0).hit, 0.125, 1e-12);  // half of the noise lies beyond the reach
 }
 
