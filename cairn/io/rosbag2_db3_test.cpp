@@ -29,7 +29,7 @@ std::string small_bag(int scans) {
   bag.topic(1, "/scan", "sensor_msgs/msg/LaserScan");
   bag.topic(2, "/odom", "nav_msgs/msg/Odometry");
   for (int i = 0; i < scans; ++i) {
-    bag.message(1, 1'000'000'000 + i, test::cdr_scan(i + 1.0F));
+    bag.message(1, 1'000'000'000 + i, test::cdr_scan(static_cast<float>(i + 1)));
     bag.message(2, 2'000'000'000 + i, test::cdr_odometry(0.5 * i));
   }
   return bag.bytes();
