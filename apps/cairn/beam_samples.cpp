@@ -17,6 +17,7 @@ void add_samples(const PosedScan& posed, const RayMarcher& map, const BeamSample
                  std::vector<BeamSample>& out) {
   const auto readings = select_readings(*posed.scan, options.limits, options.beams_per_scan);
   std::vector<double> bearings;
+  bearings.reserve(readings.size());
   for (const BeamReading& reading : readings) bearings.push_back(reading.bearing_rad);
   std::vector<float> expected(readings.size());
   map.cast(std::span(&posed.T_map_sensor, 1), bearings, expected);

@@ -47,6 +47,7 @@ double seconds(const timeval& time) {
 pid_t start(const Job& job) {
   std::vector<std::string> words = job.command;
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   const std::string output = job.output.string();

@@ -30,7 +30,7 @@ KernelDensity::KernelDensity(std::span<const Pose2> poses, std::span<const doubl
   const Eigen::Matrix3d root = covariance.llt().matrixL();
   whitening_ = root.triangularView<Eigen::Lower>().solve(Eigen::Matrix3d::Identity());
   const double drawn = std::sqrt(1.0 - h * h);
-  for (const Pose2& pose : poses) centers_.push_back(drawn * whitened(pose));
+  for (const Pose2& pose : poses) centers_.emplace_back(drawn * whitened(pose));
 }
 
 Eigen::Vector3d KernelDensity::whitened(const Pose2& pose) const {

@@ -48,6 +48,7 @@ Entry& entry_named(std::vector<Entry>& entries, const std::string& name) {
 template <typename Entry>
 void visit_table(OptionVisitor& visitor, const OptionVisitor::Field& field, std::vector<Entry>& entries) {
   std::vector<std::string> present;
+  present.reserve(entries.size());
   for (const Entry& entry : entries) present.push_back(entry.name);
   visitor.table(field, present, [&entries](const std::string& key, OptionVisitor& inner) {
     entry_named(entries, key).visit(inner);

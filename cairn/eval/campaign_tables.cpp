@@ -125,7 +125,7 @@ std::string rule(std::size_t texts, std::size_t numbers) {
 }
 
 std::string with_interval(const MetricStyle& style, const MeanInterval& interval) {
-  const std::string mean = format_metric(style, interval.mean);
+  std::string mean = format_metric(style, interval.mean);
   if (!(interval.low < interval.high)) return mean;  // one value, or all alike
   return mean + " [" + format_metric(style, interval.low) + ", " + format_metric(style, interval.high) + "]";
 }

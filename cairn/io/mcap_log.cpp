@@ -21,8 +21,9 @@ Log read_mcap_log(std::istream& input, const std::string& name) {
   };
   Diagnostics damage;
   mcap::read(input, name, handlers, damage);
-  Log log = exact.has_streams() ? std::move(exact).finish() : std::move(ros).finish();
-  log.format = exact.has_streams() ? "cairn_mcap" : "mcap";
+  const bool ours = exact.has_streams();
+  Log log = ours ? std::move(exact).finish() : std::move(ros).finish();
+  log.format = ours ? "cairn_mcap" : "mcap";
   log.diagnostics.add(damage);
   warn_of_implausible_units(log, name);
   return log;

@@ -44,7 +44,7 @@ class MapSet {
     const std::lock_guard lock(mutex_);
     const std::pair<std::type_index, std::string> name(typeid(Map), parameters);
     if (const auto shared = derived_[name].lock()) return std::static_pointer_cast<const Map>(shared);
-    const std::shared_ptr<const Map> made = make();
+    std::shared_ptr<const Map> made = make();
     derived_[name] = made;
     return made;
   }

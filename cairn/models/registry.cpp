@@ -60,10 +60,10 @@ std::shared_ptr<const LaserModel> make_beam(const LaserModelParts& parts) {
   return std::make_shared<const BeamModel>(marcher, parts.T_base_sensor, parts.limits, parts.options.beam);
 }
 
-template <NdtKind kind>
+template <NdtKind Kind>
 std::shared_ptr<const LaserModel> make_ndt_model(const LaserModelParts& parts) {
   const NdtModelOptions& options = parts.options.ndt;
-  return std::make_shared<const NdtModel>(ndt_map(parts.maps, options.cell_size_m), kind, parts.T_base_sensor,
+  return std::make_shared<const NdtModel>(ndt_map(parts.maps, options.cell_size_m), Kind, parts.T_base_sensor,
                                           parts.limits, options);
 }
 

@@ -66,9 +66,10 @@ std::optional<std::vector<Point2>> RoutePlanner::route(const Point2& from, const
   if (sees(from, to)) return std::vector<Point2>{to};
   const auto width = static_cast<std::size_t>(geometry_.width);
   const auto guess = [&](std::size_t cell) {
-    const double dx = static_cast<double>(cell % width) - static_cast<double>(*goal % width);
-    const double dy = static_cast<double>(cell / width) - static_cast<double>(*goal / width);
-    return std::hypot(dx, dy);
+    const std::size_t column = cell % width, row = cell / width;
+    const std::size_t goal_column = *goal % width, goal_row = *goal / width;
+    return std::hypot(static_cast<double>(column) - static_cast<double>(goal_column),
+                      static_cast<double>(row) - static_cast<double>(goal_row));
   };
   std::vector<double> cost(open_.size(), std::numeric_limits<double>::infinity());
   std::vector<std::size_t> came_from(open_.size(), kNowhere);

@@ -42,6 +42,7 @@ std::vector<double> parse_numbers(const std::string& key, const std::string& tex
 template <typename Entry>
 void visit_table(OptionVisitor& visitor, const OptionVisitor::Field& field, std::vector<Entry>& entries) {
   std::vector<std::string> present;
+  present.reserve(entries.size());
   for (const Entry& entry : entries) present.push_back(entry.name);
   visitor.table(field, present, [&entries](const std::string& key, OptionVisitor& inner) {
     for (Entry& entry : entries) {

@@ -204,6 +204,7 @@ double BeamModel::explained_share(const LaserScan& scan, const Pose2& T_map_base
   const std::vector<BeamReading> readings = select_readings(scan, limits_, options_.max_beams);
   if (readings.empty()) return 0.0;
   std::vector<double> bearings;
+  bearings.reserve(readings.size());
   for (const BeamReading& reading : readings) bearings.push_back(reading.bearing_rad);
   const Pose2 T_map_sensor = T_map_base * T_base_sensor_;
   std::vector<float> expected(readings.size());
