@@ -44,8 +44,11 @@ const char* payload_defect(Time stamp, const std::shared_ptr<const LaserScan>& s
   if (const char* what = stamp_defect(stamp, scan->stamp)) return what;
   if (scan->ranges_m.empty()) return "has no beams";
   if (const char* what = angle_defect(*scan)) return what;
-  const auto valid = [&](float r) { return scan->is_valid_range(r); };
-  if (std::none_of(scan->ranges_m.begin(), scan->ranges_m.end(), valid)) return "has no valid range";
+  // A scan that sees nothing within reach is sound: so is an open place.
+  const auto sound = [&](float r) {
+    return scan->is_valid_range(r) || r >= scan->range_max_m || r == std::numeric_limits<float>::infinity();
+  };
+  if (std::none_of(scan->ranges_m.begin(), scan->ranges_m.end(), sound)) return "has no valid range";
   return nullptr;
 }
 

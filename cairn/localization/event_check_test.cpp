@@ -46,11 +46,19 @@ TEST(EventCheck, RefusesScansWithoutMeasurement) {
   LaserScan scan = good_scan();
   scan.ranges_m.clear();
   EXPECT_THAT(defect_of(scan), HasSubstr("no beams"));
-  scan.ranges_m = {kNoRange, 0.0f, 10.0f, -1.0f, std::numeric_limits<float>::infinity()};
+  scan.ranges_m = {kNoRange, 0.0f, -1.0f, -std::numeric_limits<float>::infinity()};
   EXPECT_THAT(defect_of(scan), HasSubstr("no valid range"));
   scan = good_scan();
   scan.range_max_m = kNan;
   EXPECT_THAT(defect_of(scan), HasSubstr("no valid range"));
+}
+
+TEST(EventCheck, TakesScansOfOpenPlaces) {
+  for (const float no_return : {10.0f, 81.91f, std::numeric_limits<float>::infinity()}) {
+    LaserScan scan = good_scan();
+    scan.ranges_m = {kNoRange, no_return, 0.0f};
+    EXPECT_THAT(defect_of(scan), IsNull()) << no_return;
+  }
 }
 
 TEST(EventCheck, RefusesImpossibleAngles) {

@@ -164,6 +164,7 @@ void FusionLocalizer::apply(Timeline::Entry& entry, bool again) {
   const Outcome outcome = applied.used ? use : Outcome::kNotNeeded;
   settle(event.stream, entry.measurement.number, entry.outcome, outcome);
   entry.outcome = outcome;
+  if (!belief_.started()) return;
   if (again || (told_ && event.stamp < *told_)) {
     revised_ = true;
   } else {

@@ -60,6 +60,12 @@ class MonteCarloLocalizerTest : public ::testing::Test {
     const auto& counts = localizer_->diagnostics().counts();
     return counts.contains(kind) ? counts.at(kind) : 0;
   }
+  // A scan of an open place: nothing within reach.
+  Outcome open_scan(double seconds) {
+    LaserScan open = scan_from(map_, on_circle(kStart, seconds), at(seconds));
+    std::fill(open.ranges_m.begin(), open.ranges_m.end(), std::numeric_limits<float>::infinity());
+    return localizer_->process(scan_event(std::move(open)));
+  }
   // Odometry at 20 Hz and a scan every 0.2 s between them, from 0 to `seconds`.
   void drive(double seconds) {
     const int steps = static_cast<int>(20 * seconds);
@@ -96,6 +102,43 @@ TEST_F(MonteCarloLocalizerTest, FindsTheRobotAnywhere) {
   const Pose2 truth = on_circle(kStart, to_seconds(estimates_.back().stamp));
   EXPECT_LT(distance(estimates_.back().T_map_base, truth), 0.15);
   EXPECT_GT(estimates_.back().weight, 0.9);
+}
+
+TEST_F(MonteCarloLocalizerTest, CrossesAnOpenPlace) {
+  LocalizerOptions options = few_particles();
+  options.update = {0.05, 0.05};  // half of what the robot moves between two scans
+  make(options);
+  for (int i = 0; i <= 200; ++i) {
+    const double seconds = 0.05 * i;
+    odometry(seconds);
+    if (i % 4 == 0 && i < 200) (i < 60 || i > 140) ? scan(seconds + 0.013) : open_scan(seconds + 0.013);
+  }
+  localizer_->finish();
+  ASSERT_EQ(estimates_.size(), 50U);
+  EXPECT_EQ(count(Outcome::kDroppedMalformed), 0);
+  EXPECT_EQ(count(Outcome::kNotNeeded), 21);
+  EXPECT_EQ(localizer_->updates(), 29);
+  const auto spread = [&](std::size_t i) { return estimates_[i].covariance.topLeftCorner<2, 2>().trace(); };
+  EXPECT_GT(spread(34), 3.0 * spread(14));  // from 3 to 7 s nothing tells where the robot is,
+  EXPECT_EQ(estimates_[34].quality, estimates_[14].quality);  // nor whether the map fits
+  EXPECT_LT(distance(estimates_.back().T_map_base, on_circle(kStart, to_seconds(estimates_.back().stamp))),
+            0.12);
+}
+
+TEST_F(MonteCarloLocalizerTest, AnywhereBeginsWithAScanThatTellsSomething) {
+  LocalizerOptions options;
+  options.filter.min_particles = 1000;
+  make(options, {});
+  odometry(0.0);
+  open_scan(0.2);
+  odometry(0.5);
+  EXPECT_EQ(count(Outcome::kNotNeeded), 1);
+  EXPECT_FALSE(localizer_->estimate());
+  EXPECT_TRUE(estimates_.empty());
+  scan(0.7);
+  odometry(1.0);
+  EXPECT_EQ(count(Outcome::kUsed), 1);
+  EXPECT_TRUE(localizer_->estimate());
 }
 
 TEST_F(MonteCarloLocalizerTest, CutsTheMotionAtTheStampOfTheScan) {

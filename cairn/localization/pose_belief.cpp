@@ -34,9 +34,10 @@ PoseBelief::Application PoseBelief::apply(const Event& event, const OdometryTrac
                                           const Scheduler& scheduler) {
   resolve_anchors(odometry);
   ++state_.offered[event.stream];
+  if (!state_.started && !may_begin(*models_[event.stream], event.payload)) return {};
   Application applied;
-  applied.used = !state_.started || worth_an_update(event.stream, event.stamp, odometry, scheduler);
-  if (applied.used) applied.work = update(event, odometry);
+  if (!state_.started || worth_an_update(event.stream, event.stamp, odometry, scheduler))
+    applied = update(event, odometry);
   state_.started = true;
   state_.stamp = event.stamp;
   return applied;
@@ -68,30 +69,38 @@ bool PoseBelief::worth_an_update(StreamId stream, Time stamp, const OdometryTrac
                                .rotation_rad = std::abs(T.theta) + walk_.sigma_rad_after(moved.unknown_s)});
 }
 
-UpdateWork PoseBelief::update(const Event& event, const OdometryTrack& odometry) {
+bool PoseBelief::may_begin(const StreamModel& model, const Event::Payload& z) const {
+  return !global_start_ || model.informs(z);
+}
+
+PoseBelief::Application PoseBelief::update(const Event& event, const OdometryTrack& odometry) {
   const StreamModel& model = *models_[event.stream];
+  const bool informs = model.informs(event.payload);
   const bool anywhere = !state_.started && global_start_;
   if (anywhere) {
     start_anywhere(model, event.payload);
   } else {
     filter_->predict(state_.started ? odometry.control(state_.updated_at, event.stamp) : PoseControl{});
-    BoundUpdate<Pose2> z = model.bind(event.payload, filter_->compact());
-    z.stream = event.stream;
-    filter_->correct(z);
+    if (informs) {
+      BoundUpdate<Pose2> z = model.bind(event.payload, filter_->compact());
+      z.stream = event.stream;
+      filter_->correct(z);
+    }
   }
   state_.updated_at = odometry.anchor_at(event.stamp);
   state_.used_at[event.stream] = state_.updated_at;
   state_.offered[event.stream] = 0;
   const PoseSummary now = filter_->summarize();
-  state_.updated = {.stamp = event.stamp,
-                    .T_map_base = now.T_map_base,
-                    .covariance = now.covariance,
-                    .ess = now.ess,
-                    .particles = now.particles,
-                    .hypotheses = now.hypotheses,
-                    .weight = now.weight,
-                    .quality = model.explained_share(event.payload, now.T_map_base)};
-  return {model.beams(event.payload), static_cast<std::int64_t>(filter_->size())};
+  state_.updated = {
+      .stamp = event.stamp,
+      .T_map_base = now.T_map_base,
+      .covariance = now.covariance,
+      .ess = now.ess,
+      .particles = now.particles,
+      .hypotheses = now.hypotheses,
+      .weight = now.weight,
+      .quality = informs ? model.explained_share(event.payload, now.T_map_base) : state_.updated.quality};
+  return {informs, {model.beams(event.payload), static_cast<std::int64_t>(filter_->size())}};
 }
 
 // The first measurement of a robot that may be anywhere makes the first particles; it must not weigh them

@@ -37,10 +37,12 @@ class PoseBelief {
 
   /// What applying a measurement came to.
   struct Application {
-    bool used = false;
+    bool used = false;  ///< it weighed the belief
     UpdateWork work;
   };
-  /// Takes the belief to the measurement's stamp and, if it is worth it, weighs it. @pre binds(event.stream)
+  /// Takes the belief to the measurement's stamp and, if it is worth it, weighs it. A measurement that does
+  /// not inform only carries the belief on; it cannot begin one that may be anywhere.
+  /// @pre binds(event.stream)
   Application apply(const Event& event, const OdometryTrack& odometry, const Scheduler& scheduler);
 
   bool started() const { return state_.started; }
@@ -79,7 +81,8 @@ class PoseBelief {
   bool worth_an_update(StreamId stream, Time stamp, const OdometryTrack& odometry,
                        const Scheduler& scheduler) const;
   void start_anywhere(const StreamModel& model, const Event::Payload& z);
-  UpdateWork update(const Event& event, const OdometryTrack& odometry);
+  bool may_begin(const StreamModel& model, const Event::Payload& z) const;
+  Application update(const Event& event, const OdometryTrack& odometry);
 
   std::unique_ptr<PoseFilter> filter_;
   std::vector<std::unique_ptr<const StreamModel>> models_;

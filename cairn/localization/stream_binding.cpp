@@ -79,15 +79,20 @@ class LaserLocator {
 class LaserStream final : public StreamModel {
  public:
   LaserStream(std::shared_ptr<const LaserModel> fine, std::shared_ptr<const LaserModel> coarse,
-              std::unique_ptr<const LaserLocator> locator, int max_beams, double cost)
+              std::unique_ptr<const LaserLocator> locator, const BeamLimits& limits, int max_beams,
+              double cost)
       : fine_(std::move(fine)),
         coarse_(std::move(coarse)),
         locator_(std::move(locator)),
+        limits_(limits),
         max_beams_(max_beams),
         cost_(cost) {}
 
   BoundUpdate<Pose2> bind(const Event::Payload& z, bool compact) const override {
     return (compact ? fine_ : coarse_)->bind(scan_of(z));
+  }
+  bool informs(const Event::Payload& z) const override {
+    return fine_->reads_no_returns() || !select_beams(scan_of(z), limits_, 1).empty();
   }
   double explained_share(const Event::Payload& z, const Pose2& T_map_base) const override {
     return fine_->explained_share(scan_of(z), T_map_base);
@@ -108,6 +113,7 @@ class LaserStream final : public StreamModel {
   std::shared_ptr<const LaserModel> fine_;
   std::shared_ptr<const LaserModel> coarse_;
   std::unique_ptr<const LaserLocator> locator_;  ///< null: the search is switched off
+  BeamLimits limits_;
   int max_beams_;
   double cost_;
 };
@@ -121,7 +127,7 @@ std::unique_ptr<const StreamModel> bind_laser(const LocalizerOptions& options,
   LaserModelOptions fine = options.laser;
   double coarse_beams = options.global.effective_beams;
   if (laser.effective_beams > 0.0) {
-    fine.likelihood_field.effective_beams = fine.beam.effective_beams = laser.effective_beams;
+    fine = with_effective_beams(fine, laser.effective_beams);
     coarse_beams = std::min(coarse_beams, laser.effective_beams);
   }
   const LaserModelOptions coarse = widened(options.laser, options.global.sigma_hit_m, coarse_beams);
@@ -136,7 +142,7 @@ std::unique_ptr<const StreamModel> bind_laser(const LocalizerOptions& options,
   }
   return std::make_unique<const LaserStream>(
       std::move(model), make_laser_model(name, {map, T_base_sensor, laser.limits, coarse}),
-      std::move(locator), options.laser.likelihood_field.max_beams, laser.cost);
+      std::move(locator), laser.limits, options.laser.likelihood_field.max_beams, laser.cost);
 }
 
 // How a laser stream is to be used; nullopt: not at all.

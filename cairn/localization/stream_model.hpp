@@ -20,6 +20,10 @@ class StreamModel {
   /// over several places: the likelihood has then to be as wide as the gaps between the particles
   virtual BoundUpdate<Pose2> bind(const Event::Payload& z, bool compact) const = 0;
 
+  /// False if the measurement is as likely in every pose: a scan of an open place, all beams without return,
+  /// for a model that looks at end points.
+  virtual bool informs(const Event::Payload& z) const = 0;
+
   /// Where the robot may be that measured z, whatever was believed before; none: this sensor cannot tell.
   virtual std::vector<LocatedPose> locate(const Event::Payload& /*z*/) const { return {}; }
 

@@ -120,16 +120,21 @@ void LaserModelOptions::validate() const {
   }
 }
 
-LaserModelOptions widened(LaserModelOptions options, double sigma_hit_m, double effective_beams) {
-  options.likelihood_field.sigma_hit_m = sigma_hit_m;
+LaserModelOptions with_effective_beams(LaserModelOptions options, double effective_beams) {
   options.likelihood_field.effective_beams = effective_beams;
-  options.beam.sigma_hit_m = sigma_hit_m;
   options.beam.effective_beams = effective_beams;
-  options.ndt.sigma_hit_m = sigma_hit_m;
   options.ndt.effective_beams = effective_beams;
+  options.vector_laser.effective_beams = effective_beams;
+  return options;
+}
+
+LaserModelOptions widened(const LaserModelOptions& narrow, double sigma_hit_m, double effective_beams) {
+  LaserModelOptions options = with_effective_beams(narrow, effective_beams);
+  options.likelihood_field.sigma_hit_m = sigma_hit_m;
+  options.beam.sigma_hit_m = sigma_hit_m;
+  options.ndt.sigma_hit_m = sigma_hit_m;
   options.ndt.cell_size_m = std::max(options.ndt.cell_size_m, kCellSigmas * sigma_hit_m);
   options.vector_laser.sigma_m = sigma_hit_m;
-  options.vector_laser.effective_beams = effective_beams;
   return options;
 }
 

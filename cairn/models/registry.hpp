@@ -32,7 +32,10 @@ struct LaserModelOptions {
 /// places, so that none stands exactly where the robot is: the likelihood must be as wide as the gaps between
 /// them.
 /// @param sigma_hit_m  distance of end points to the mapped wall, standard deviation
-LaserModelOptions widened(LaserModelOptions options, double sigma_hit_m, double effective_beams);
+LaserModelOptions widened(const LaserModelOptions& narrow, double sigma_hit_m, double effective_beams);
+
+/// The same models, in which a scan counts as so many independent beams.
+LaserModelOptions with_effective_beams(LaserModelOptions options, double effective_beams);
 
 /// What a sensor model is made of.
 struct LaserModelParts {

@@ -46,5 +46,19 @@ TEST(LaserModelRegistry, AWidenedModelForgivesMoreThanTheFineOne) {
   }
 }
 
+TEST(LaserModelRegistry, AScanCountsAsManyBeamsAsItIsToldTo) {
+  const Pose2 truth{2.0, 1.2, 0.4}, beside = truth * Pose2{0.05, 0.02, 0.02};
+  const LaserScan scan = test::scan_of(*room().grid(), truth, 180);
+  for (const std::string& name : laser_model_names()) {
+    if (name == "likelihood_field") continue;  // AMCL's weight is no product of beams
+    const auto loss = [&](double effective_beams) {
+      const LaserModelOptions options = with_effective_beams({}, effective_beams);
+      const auto model = make_laser_model(name, {room(), {}, {}, options});
+      return score(*model, scan, truth) - score(*model, scan, beside);
+    };
+    EXPECT_NEAR(loss(5.0) / loss(20.0), 0.25, 0.02) << name;
+  }
+}
+
 }  // namespace
 }  // namespace cairn

@@ -84,6 +84,7 @@ class FakeStream final : public StreamModel {
     bound.stamp = std::get<std::shared_ptr<const LaserScan>>(z)->stamp;
     return bound;
   }
+  bool informs(const Event::Payload&) const override { return true; }
   double explained_share(const Event::Payload&, const Pose2&) const override { return 1.0; }
   double beams(const Event::Payload&) const override { return beams_; }
 

@@ -66,6 +66,8 @@ class BeamModel final : public LaserModel {
   /// range is beyond reach.
   double explained_share(const LaserScan& scan, const Pose2& T_map_base) const override;
 
+  bool reads_no_returns() const override { return true; }
+
  private:
   struct Tables;
   class Beams;

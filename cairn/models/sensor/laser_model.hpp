@@ -12,6 +12,9 @@ class LaserModel : public SensorModel<Pose2, LaserScan> {
   /// Share of the evaluated beams that the map explains, seen from `T_map_base`: 0..1; 0 without a valid
   /// beam. Each model says what it counts as explained.
   virtual double explained_share(const LaserScan& scan, const Pose2& T_map_base) const = 0;
+
+  /// True if beams without return count, too: then a scan of an open place tells where the robot may be.
+  virtual bool reads_no_returns() const { return false; }
 };
 
 }  // namespace cairn
