@@ -2,6 +2,7 @@
 
 #include "cairn/core/errors.hpp"
 #include "cairn/maps/ray_marching.hpp"
+#include "cairn/models/sensor/beam_model.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +21,7 @@ void add_samples(const PosedScan& posed, const RayMarcher& map, const BeamSample
   bearings.reserve(readings.size());
   for (const BeamReading& reading : readings) bearings.push_back(reading.bearing_rad);
   std::vector<float> expected(readings.size());
-  map.cast(std::span(&posed.T_map_sensor, 1), bearings, expected);
+  expect_ranges(map, std::span(&posed.T_map_sensor, 1), bearings, expected);
   for (std::size_t k = 0; k < readings.size(); ++k) {
     const double r = expected[k] < map.max_range_m() ? expected[k] : options.largest_expected_m;
     out.push_back({readings[k].range_m, r});

@@ -183,9 +183,11 @@ std::unique_ptr<Recorder> make_recorder(const Arguments& arguments, const Inputs
   header.seed = parse_seed("--seed", arguments.seed);
   header.T_map_base = start.T_map_base;
   header.map_path = absolute(arguments.map);
-  header.map_checksum = checksum(*inputs.map);
+  header.map_checksum = checksum(*inputs.maps);
   header.log_path = absolute(arguments.log);
   header.odometry_stream = inputs.options.odometry_stream;
+  header.stream_map_checksums = checksums(inputs.stream_maps);
+  header.live = arguments.live;
   return std::make_unique<Recorder>(prepare_recording(arguments.out), header, inputs.log.streams);
 }
 
@@ -198,7 +200,8 @@ LocalizeResult run_with_progress(const Arguments& arguments, const Inputs& input
                           .options = inputs.options,
                           .start = start,
                           .seed = parse_seed("--seed", arguments.seed),
-                          .threads = arguments.threads};
+                          .threads = arguments.threads,
+                          .live = arguments.live};
   const auto recorder = make_recorder(arguments, inputs, start);
   if (recorder) {
     request.on_event = [&](const Event& event) { recorder->record(event); };
@@ -239,7 +242,8 @@ int run_localize(const Arguments& arguments) {
                      .map_path = arguments.map,
                      .seed = parse_seed("--seed", arguments.seed),
                      .threads = arguments.threads,
-                     .read_s = inputs.read_s},
+                     .read_s = inputs.read_s,
+                     .live = arguments.live},
                     inputs.log, *inputs.map, inputs.options, inputs.reference, inputs.diagnostics, result);
   write_run(arguments.out, to_run_data(inputs, result, summary.metrics, !arguments.no_record));
   const std::string no_report = write_report(arguments.out);
@@ -272,7 +276,9 @@ void add_localize(CLI::App& program, Runner& run) {
   command->add_flag("--global", a->global, "Start anywhere free (the default)")->excludes(init);
   command->add_flag(
       "--live", a->live,
-      "Take the messages in the order of their arrival, as the robot did (default: of their stamps)");
+      "As on the robot: messages in the order of their arrival (default: of their stamps), and the "
+      "trajectory "
+      "is of the estimates that it had at each moment (default: of the beliefs at the scans' stamps)");
   command->add_option("--reference", a->reference,
                       "Trajectory taken as true: adds the accuracy to the results");
   command->add_option("--seed", a->seed, "Of all random numbers")->capture_default_str();

@@ -142,6 +142,7 @@ RunSummary summarize_run(const RunContext& context, const Log& log, const Occupa
        {"recipe", options.recipe},
        {"seed", context.seed},
        {"threads", context.threads},
+       {"live", context.live},
        {"interrupted", result.interrupted},
        {"log", log_json(context.log_path, log, result.outcomes)},
        {"map",

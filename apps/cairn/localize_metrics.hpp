@@ -17,6 +17,7 @@ struct RunContext {
   std::uint64_t seed = 1;
   int threads = 1;
   double read_s = 0.0;
+  bool live = false;
 };
 
 struct RunSummary {

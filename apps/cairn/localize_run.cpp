@@ -1,8 +1,12 @@
 #include "apps/cairn/localize_run.hpp"
 
+#include "cairn/localization/odometry_track.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -51,10 +55,42 @@ class SnapshotTaker {
   Duration interval_{};
 };
 
+// Tells the estimate that a robot would act on now, as often as it is of a later moment than the last one, or
+// of one before the clock was set back.
+class CurrentEstimates {
+ public:
+  explicit CurrentEstimates(std::function<void(const Estimate&)> tell) : tell_(std::move(tell)) {}
+
+  void look(const Localizer& localizer) {
+    const auto estimate = localizer.estimate();
+    if (!estimate) return;
+    const bool old = newest_ && estimate->stamp <= *newest_;
+    if (old && *newest_ - estimate->stamp < OdometryTrack::kLargestJump) return;
+    newest_ = estimate->stamp;
+    tell_(*estimate);
+  }
+
+ private:
+  std::function<void(const Estimate&)> tell_;
+  std::optional<Time> newest_;
+};
+
 MapLibrary library_of(const LocalizeRequest& request) {
   MapLibrary library = request.maps ? MapLibrary(request.maps) : MapLibrary(request.map);
   for (const auto& [name, map] : request.stream_maps) library.add(name, std::make_shared<const MapSet>(map));
   return library;
+}
+
+// Of the last scans, each once, however many moments its belief was carried on to.
+std::vector<double> last_qualities(const std::vector<Estimate>& estimates) {
+  std::vector<double> qualities;
+  std::optional<Time> belief;
+  for (std::size_t i = estimates.size(); i-- > 0 && qualities.size() < kLastScans;) {
+    if (belief == estimates[i].belief_stamp) continue;
+    belief = estimates[i].belief_stamp;
+    qualities.push_back(estimates[i].quality);
+  }
+  return qualities;
 }
 
 }  // namespace
@@ -65,10 +101,12 @@ LocalizeResult localize(const LocalizeRequest& request) {
   const auto executor = std::make_shared<const Executor>(request.threads);
   MonteCarloLocalizer localizer(request.options, request.log->streams, library_of(request), request.start,
                                 request.seed, executor);
-  localizer.set_observer([&](const Estimate& estimate) {
+  const auto tell = [&](const Estimate& estimate) {
     result.estimates.push_back(estimate);
     request.on_estimate(estimate);
-  });
+  };
+  CurrentEstimates current(tell);
+  if (!request.live) localizer.set_observer(tell);
   result.prepare_s = seconds_since(prepare_started);
 
   const auto run_started = Clock::now();
@@ -77,6 +115,7 @@ LocalizeResult localize(const LocalizeRequest& request) {
   for (const Event& event : request.log->events) {
     request.on_event(event);
     localizer.process(event);
+    if (request.live) current.look(localizer);
     snapshots.look(localizer);
     if (!request.go_on(++done)) {
       result.interrupted = true;
@@ -93,10 +132,10 @@ LocalizeResult localize(const LocalizeRequest& request) {
 
 EndVerdict judge_end(const std::vector<Estimate>& estimates) {
   if (estimates.empty()) return {true, "no scan could be used"};
-  const std::size_t count = std::min(kLastScans, estimates.size());
-  double quality = 0.0;
-  for (std::size_t i = estimates.size() - count; i < estimates.size(); ++i) quality += estimates[i].quality;
-  quality /= static_cast<double>(count);
+  const std::vector<double> qualities = last_qualities(estimates);
+  const std::size_t count = qualities.size();
+  const double quality =
+      std::accumulate(qualities.begin(), qualities.end(), 0.0) / static_cast<double>(count);
   const Estimate& last = estimates.back();
   if (quality < kLeastQuality) {
     return {true,

@@ -15,7 +15,7 @@ namespace cairn::app {
 
 /// One run of a localizer over a log.
 struct LocalizeRequest {
-  const Log* log = nullptr;  ///< events in the order of their stamps
+  const Log* log = nullptr;  ///< events in the order in which the localizer takes them
   std::shared_ptr<const OccupancyGrid> map;
   std::shared_ptr<const MapSet> maps =
       nullptr;  ///< of the same place, in every representation; null: the grid
@@ -25,6 +25,9 @@ struct LocalizeRequest {
   Start start;
   std::uint64_t seed = 1;
   int threads = 1;
+  /// The estimates are what the robot has at each moment: after every message, the belief carried on to the
+  /// newest odometry, wherever that moved on. Otherwise they are the beliefs at the measurements' stamps.
+  bool live = false;
   /// Told every event before the localizer takes it, and every estimate when it comes: for a recorder.
   std::function<void(const Event&)> on_event = [](const Event&) {};
   std::function<void(const Estimate&)> on_estimate = [](const Estimate&) {};
@@ -33,7 +36,8 @@ struct LocalizeRequest {
 };
 
 struct LocalizeResult {
-  std::vector<Estimate> estimates;          ///< one per scan that was used or not needed
+  /// One per scan that was used or not needed, or (live) one per moment: see LocalizeRequest::live.
+  std::vector<Estimate> estimates;
   std::vector<ParticleSnapshot> snapshots;  ///< evenly spread over the run
   std::vector<OutcomeCounts> outcomes;      ///< per stream of the log
   Diagnostics diagnostics;

@@ -3,6 +3,8 @@
 #include "cairn/core/errors.hpp"
 #include "small_room.hpp"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -47,6 +49,37 @@ TEST_F(LocalizeRun, GivesAnEstimatePerScanAndAccountsForAll) {
   }
   EXPECT_EQ(events, static_cast<std::int64_t>(log_.events.size()));
   EXPECT_EQ(result.updates, result.outcomes[1][static_cast<std::size_t>(Outcome::kUsed)]);
+}
+
+TEST_F(LocalizeRun, ALiveRunTellsWhatTheRobotHadAtEachMoment) {
+  request_.live = true;
+  const LocalizeResult live = localize(request_);
+  ASSERT_EQ(live.estimates.size(), 81U) << "one per message of the odometry, not one per scan";
+  for (int i = 0; i <= 80; ++i) {
+    const Estimate& now = live.estimates[static_cast<std::size_t>(i)];
+    EXPECT_EQ(now.stamp, test::at(0.05 * i));
+    EXPECT_LE(now.stamp - now.belief_stamp, std::chrono::milliseconds(201));
+    EXPECT_LT(distance(now.T_map_base, test::on_circle(kStart, 0.05 * i)), 0.1);
+  }
+  request_.live = false;
+  EXPECT_EQ(localize(request_).updates, live.updates);
+}
+
+TEST_F(LocalizeRun, ALiveRunDoesNotForeseeWhatComesLate) {
+  for (Event& event : log_.events) {
+    if (std::holds_alternative<Odometry>(event.payload)) continue;
+    event.arrival = event.stamp + std::chrono::milliseconds(510);
+  }
+  std::stable_sort(log_.events.begin(), log_.events.end(),
+                   [](const Event& a, const Event& b) { return a.arrival < b.arrival; });
+  request_.live = true;
+  const LocalizeResult live = localize(request_);
+  ASSERT_GT(live.estimates.size(), 60U);
+  for (std::size_t i = 1; i < live.estimates.size(); ++i) {
+    const Estimate& now = live.estimates[i];
+    EXPECT_GT(now.stamp, live.estimates[i - 1].stamp);
+    EXPECT_GE(to_seconds(now.stamp - now.belief_stamp), 0.49) << "carried on by the odometry alone";
+  }
 }
 
 TEST_F(LocalizeRun, SnapshotsAreSpreadOverTheRun) {
@@ -95,6 +128,7 @@ Estimate good_estimate() {
 
 EndVerdict verdict(int count, void (*spoil)(Estimate&)) {
   std::vector<Estimate> estimates(30, good_estimate());
+  for (int i = 0; i < 30; ++i) estimates[i].belief_stamp = test::at(i);
   for (int i = 0; i < count; ++i) spoil(estimates[estimates.size() - 1 - i]);
   return judge_end(estimates);
 }
@@ -105,6 +139,18 @@ TEST(JudgeEnd, LooksAtTheLastScans) {
   EXPECT_FALSE(verdict(4, blind).lost) << "0.9 * 16 / 20 = 0.72";
   EXPECT_TRUE(verdict(5, blind).lost) << "0.9 * 15 / 20 = 0.675";
   EXPECT_THAT(verdict(20, blind).reason, HasSubstr("explains only 0 % of the beams of the last 20 scans"));
+}
+
+TEST(JudgeEnd, CountsAScanOnceHoweverOftenItsBeliefIsTold) {
+  std::vector<Estimate> estimates;
+  for (int moment = 0; moment < 300; ++moment) {  // ten to a scan
+    estimates.push_back(good_estimate());
+    estimates.back().belief_stamp = test::at(moment / 10);
+    if (moment >= 260) estimates.back().quality = 0.0;  // of the last four
+  }
+  EXPECT_FALSE(judge_end(estimates).lost) << "0.9 * 16 / 20 = 0.72";
+  estimates[259].quality = 0.0;
+  EXPECT_TRUE(judge_end(estimates).lost) << "0.9 * 15 / 20 = 0.675";
 }
 
 TEST(JudgeEnd, AWideOrDividedBeliefIsLost) {

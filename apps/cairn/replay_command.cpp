@@ -63,7 +63,8 @@ void write_comparison(const Arguments& arguments, const RecordedRun& run, const 
   RunData data;
   data.reference = trajectory_of(run.recording.estimates);
   const RunHeader& header = run.recording.header;
-  const RunContext context{header.log_path, header.map_path, header.seed, arguments.threads, 0.0};
+  const RunContext context{header.log_path, header.map_path, header.seed, arguments.threads, 0.0,
+                           header.live};
   data.metrics =
       summarize_run(context, run.recording.log, *run.map, options, data.reference, Diagnostics(), result)
           .metrics;

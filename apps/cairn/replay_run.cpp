@@ -27,17 +27,35 @@ LocalizerOptions read_options(const fs::path& file, const std::string& configura
   return options;
 }
 
-std::shared_ptr<const MapSet> read_same_map(const std::string& path, std::uint64_t wanted) {
-  Diagnostics diagnostics;
-  auto maps = read_map_set(path, diagnostics);
-  const std::uint64_t found = checksum(*maps->grid());
-  if (found == wanted) return maps;
+void check_same_map(const std::string& path, std::uint64_t found, std::uint64_t wanted, const char* hint) {
+  if (found == wanted) return;
   throw InputError(
       path,
       fmt::format("is not the map of the recorded run: its checksum is {:016x}, that of the run's map was "
                   "{:016x}",
                   found, wanted),
-      "name the map as it was then with --map");
+      hint);
+}
+
+std::shared_ptr<const MapSet> read_same_map(const std::string& path, std::uint64_t wanted) {
+  Diagnostics diagnostics;
+  auto maps = read_map_set(path, diagnostics);
+  check_same_map(path, checksum(*maps), wanted, "name the map as it was then with --map");
+  return maps;
+}
+
+// Maps that the recorded run did not use, with other options, are as they are.
+StreamMaps read_same_stream_maps(const LocalizerOptions& options, const RunHeader& header) {
+  Diagnostics diagnostics;
+  StreamMaps maps = read_stream_maps(options, diagnostics);
+  for (const auto& [path, found] : checksums(maps)) {
+    const auto recorded = header.stream_map_checksums.find(path);
+    if (recorded == header.stream_map_checksums.end()) continue;
+    check_same_map(
+        path, found, recorded->second,
+        "put the map of that run back there, or name its place with --what-if streams.NAME.map=...");
+  }
+  return maps;
 }
 
 }  // namespace
@@ -54,15 +72,15 @@ RecordedRun read_recorded_run(const fs::path& run, const std::string& map) {
 }
 
 LocalizeResult run_again(const RecordedRun& run, const LocalizerOptions& options, int threads) {
-  Diagnostics diagnostics;
   return localize({.log = &run.recording.log,
                    .map = run.map,
                    .maps = run.maps,
-                   .stream_maps = read_stream_maps(options, diagnostics),
+                   .stream_maps = read_same_stream_maps(options, run.recording.header),
                    .options = options,
                    .start = {run.recording.header.T_map_base},
                    .seed = run.recording.header.seed,
-                   .threads = threads});
+                   .threads = threads,
+                   .live = run.recording.header.live});
 }
 
 std::optional<Parting> first_parting(const Recording& recorded, const std::vector<Estimate>& replayed) {

@@ -28,6 +28,7 @@ struct RecordedRun {
 RecordedRun read_recorded_run(const std::filesystem::path& run, const std::string& map);
 
 /// Runs the recorded events again.
+/// @throws InputError if a map of a single stream is not to the last cell that of the run (it is named)
 LocalizeResult run_again(const RecordedRun& run, const LocalizerOptions& options, int threads);
 
 /// Where two runs of the same events part.

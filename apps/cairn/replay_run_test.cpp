@@ -46,9 +46,17 @@ class ReplayRun : public testing::Test {
     header.T_map_base = Pose2{2.0, 1.5, 0.01};
     header.map_path = folder_ / "map.yaml";
     header.map_checksum = checksum(*map);
+    const StreamMaps stream_maps = read_stream_maps(options_, diagnostics);
+    header.stream_map_checksums = checksums(stream_maps);
+    header.live = live_;
     Recorder recorder(folder_ / "run.mcap", header, log_.streams);
-    LocalizeRequest request{
-        .log = &log_, .map = map, .options = options_, .start = {header.T_map_base}, .seed = 5};
+    LocalizeRequest request{.log = &log_,
+                            .map = map,
+                            .stream_maps = stream_maps,
+                            .options = options_,
+                            .start = {header.T_map_base},
+                            .seed = 5,
+                            .live = live_};
     request.on_event = [&](const Event& event) { recorder.record(event); };
     request.on_estimate = [&](const Estimate& estimate) { recorder.record(estimate); };
     estimates_ = localize(request).estimates;
@@ -58,6 +66,7 @@ class ReplayRun : public testing::Test {
   fs::path folder_;
   Log log_;
   LocalizerOptions options_;
+  bool live_ = false;
   std::vector<Estimate> estimates_;
 };
 
@@ -69,6 +78,14 @@ TEST_F(ReplayRun, GivesEveryEstimateToTheLastBitForAnyNumberOfThreads) {
   for (const int threads : {1, 2, 7}) {
     EXPECT_FALSE(first_parting(run.recording, run_again(run, run.options, threads).estimates).has_value());
   }
+}
+
+TEST_F(ReplayRun, ALiveRunIsReplayedAsOne) {
+  live_ = true;
+  record();
+  const RecordedRun run = read_recorded_run(folder_, "");
+  EXPECT_EQ(run.recording.estimates.size(), 41U) << "one per message of the odometry";
+  EXPECT_FALSE(first_parting(run.recording, run_again(run, run.options, 2).estimates).has_value());
 }
 
 TEST_F(ReplayRun, OtherOptionsPartFromTheRecording) {
@@ -125,6 +142,34 @@ TEST_F(ReplayRun, AChangedMapIsRefused) {
   }
   write_map(folder_ / "kept.yaml", room);
   EXPECT_NO_THROW(read_recorded_run(folder_, folder_ / "kept.yaml"));
+}
+
+TEST_F(ReplayRun, AChangedMapOfASingleStreamIsRefusedByItsName) {
+  const OccupancyGrid room = test::small_room();
+  const fs::path own = folder_ / "own.yaml";
+  write_map(own, room);
+  options_.streams[log_.streams[1].name].map = own;
+  record();
+  RecordedRun run = read_recorded_run(folder_, "");
+  EXPECT_FALSE(first_parting(run.recording, run_again(run, run.options, 1).estimates).has_value());
+
+  std::vector<OccupancyGrid::Cell> cells(room.geometry().size());
+  for (std::size_t i = 0; i < cells.size(); ++i) cells[i] = room.state(i) == CellState::kOccupied ? 100 : 0;
+  const auto middle = static_cast<std::size_t>(room.geometry().width) / 2;
+  cells[cells.size() / 2 + middle] = 100;
+  write_map(own, OccupancyGrid(room.geometry(), std::move(cells)));
+  run = read_recorded_run(folder_, "");
+  try {
+    run_again(run, run.options, 1);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(),
+                testing::AllOf(testing::HasSubstr("own.yaml: is not the map of the recorded run"),
+                               testing::HasSubstr("streams.NAME.map")));
+  }
+  LocalizerOptions other = run.options;
+  other.streams[log_.streams[1].name].map = folder_ / "map.yaml";
+  EXPECT_NO_THROW(run_again(run, other, 1)) << "what if it had another map";
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ namespace cairn::app {
 /// What `cairn localize --out DIR` leaves behind, file by file.
 struct RunData {
   Trajectory trajectory;                     ///< trajectory.tum: T_map_base
-  std::vector<Estimate> estimates;           ///< estimate.csv: one row per filter update
+  std::vector<Estimate> estimates;           ///< estimate.csv: one row per estimate (LocalizeResult)
   nlohmann::json metrics;                    ///< metrics.json: an object with at least "cairn_version"
   std::string configuration;                 ///< config.yaml: the effective configuration
   std::shared_ptr<const OccupancyGrid> map;  ///< map.yaml and map.png; may be absent (null)

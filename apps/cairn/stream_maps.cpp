@@ -1,6 +1,7 @@
 #include "apps/cairn/stream_maps.hpp"
 
 #include "cairn/io/map_reader.hpp"
+#include "cairn/maps/checksum.hpp"
 
 #include <filesystem>
 
@@ -20,6 +21,12 @@ StreamMaps read_stream_maps(const LocalizerOptions& options, Diagnostics& diagno
     }
   }
   return maps;
+}
+
+std::map<std::string, std::uint64_t> checksums(const StreamMaps& maps) {
+  std::map<std::string, std::uint64_t> sums;
+  for (const auto& [name, map] : maps) sums[name] = checksum(*map);
+  return sums;
 }
 
 }  // namespace cairn::app

@@ -21,6 +21,10 @@ mcap::Metadata to_metadata(const RunHeader& header) {
                            {recording::kMapChecksum, std::to_string(header.map_checksum)},
                            {recording::kLog, header.log_path},
                            {recording::kOdometry, header.odometry_stream}}};
+  for (const auto& [path, checksum] : header.stream_map_checksums) {
+    metadata.values[recording::kStreamMap + path] = std::to_string(checksum);
+  }
+  if (header.live) metadata.values[recording::kLive] = "true";
   if (header.T_map_base) metadata.values[recording::kStart] = exact::to_text(*header.T_map_base);
   return metadata;
 }

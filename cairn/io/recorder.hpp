@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,9 +20,13 @@ struct RunHeader {
   std::uint64_t seed = 1;
   std::optional<Pose2> T_map_base;  ///< the start pose; nullopt: anywhere
   std::string map_path;
-  std::uint64_t map_checksum = 0;  ///< cairn::checksum of the grid
+  std::uint64_t map_checksum = 0;  ///< cairn::checksum of the map, in all that was read of it
   std::string log_path;            ///< what was localized; empty for a robot
   std::string odometry_stream;     ///< that becomes tf odom -> base_link; empty: the first
+  /// Of the maps that single streams have for themselves (streams.<name>.map), by their paths.
+  std::map<std::string, std::uint64_t> stream_map_checksums = {};
+  /// The estimates are those that the robot had at each moment, rather than one per measurement.
+  bool live = false;
 };
 
 struct RecorderOptions {

@@ -31,8 +31,16 @@ const std::vector<StreamInfo> kStreams{{"odom", StreamKind::kOdometry, "", {}},
                                        {"scan", StreamKind::kLaserScan, "laser", Pose2{0.2, 0.0, 0.1}}};
 
 RunHeader header() {
-  return {"1.2.3",        "filter:\n  particles: 7\n", 18446744073709551615U, Pose2{0.1, -2.0 / 3.0, 3.1},
-          "/maps/a.yaml", 0xfedcba9876543210U,         "/logs/a.log",         "odom"};
+  return {"1.2.3",
+          "filter:\n  particles: 7\n",
+          18446744073709551615U,
+          Pose2{0.1, -2.0 / 3.0, 3.1},
+          "/maps/a.yaml",
+          0xfedcba9876543210U,
+          "/logs/a.log",
+          "odom",
+          {{"/maps/high.yaml", 17U}, {"/maps/low: 1.yaml", 0xffffffffffffffffU}},
+          true};
 }
 
 // Event k of a made-up run: three of odometry, then a scan.
@@ -101,6 +109,8 @@ TEST_F(RecorderTest, ARunComesBackToTheLastBit) {
   EXPECT_EQ(recording.header.map_checksum, wanted.map_checksum);
   EXPECT_EQ(recording.header.log_path, wanted.log_path);
   EXPECT_EQ(recording.header.odometry_stream, wanted.odometry_stream);
+  EXPECT_EQ(recording.header.stream_map_checksums, wanted.stream_map_checksums);
+  EXPECT_EQ(recording.header.live, wanted.live);
   EXPECT_EQ(recording.log.events.size(), 100U);
   EXPECT_EQ(recording.estimates.size(), 100U);
   expect_prefix(recording);
@@ -109,8 +119,13 @@ TEST_F(RecorderTest, ARunComesBackToTheLastBit) {
 TEST_F(RecorderTest, AStartFromAnywhereComesBack) {
   RunHeader anywhere = header();
   anywhere.T_map_base.reset();
+  anywhere.live = false;
+  anywhere.stream_map_checksums.clear();
   Recorder(file_, anywhere, kStreams).finish();
-  EXPECT_FALSE(read_recording(file_).header.T_map_base.has_value());
+  const RunHeader read = read_recording(file_).header;
+  EXPECT_FALSE(read.T_map_base.has_value());
+  EXPECT_FALSE(read.live);
+  EXPECT_TRUE(read.stream_map_checksums.empty());
 }
 
 TEST_F(RecorderTest, WhatASensorSaidIsRecordedEvenIfItIsNaN) {

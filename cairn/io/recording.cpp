@@ -17,16 +17,25 @@ namespace {
   throw InputError(name, what, "give a run.mcap that `cairn localize` has written, or its folder");
 }
 
-std::uint64_t number(const std::string& name, const mcap::Texts& texts, const char* key) {
+std::uint64_t number(const std::string& name, const mcap::Texts& texts, const std::string& key) {
   const auto found = texts.find(key);
   std::uint64_t value = 0;
   const char* const begin = found == texts.end() ? nullptr : found->second.data();
   const char* const end = begin == nullptr ? nullptr : begin + found->second.size();
   const auto parsed = std::from_chars(begin, end, value);
   if (begin == end || parsed.ec != std::errc() || parsed.ptr != end) {
-    refuse(name, std::string("says no ") + key + " of the run");
+    refuse(name, "says no " + key + " of the run");
   }
   return value;
+}
+
+std::map<std::string, std::uint64_t> stream_map_checksums(const std::string& name, const mcap::Texts& texts) {
+  const std::string prefix = recording::kStreamMap;
+  std::map<std::string, std::uint64_t> checksums;
+  for (const auto& [key, text] : texts) {
+    if (key.starts_with(prefix)) checksums[key.substr(prefix.size())] = number(name, texts, key);
+  }
+  return checksums;
 }
 
 RunHeader to_header(const std::string& name, const mcap::Texts& texts) {
@@ -42,6 +51,8 @@ RunHeader to_header(const std::string& name, const mcap::Texts& texts) {
   header.map_checksum = number(name, texts, recording::kMapChecksum);
   header.log_path = text(recording::kLog);
   header.odometry_stream = text(recording::kOdometry);
+  header.stream_map_checksums = stream_map_checksums(name, texts);
+  header.live = texts.contains(recording::kLive);
   if (!texts.contains(recording::kStart)) return header;
   header.T_map_base = exact::to_pose(text(recording::kStart));
   if (!header.T_map_base) refuse(name, "says no start pose of the run that can be read");

@@ -17,6 +17,8 @@ inline constexpr const char* kMap = "map";
 inline constexpr const char* kMapChecksum = "map_checksum";
 inline constexpr const char* kLog = "log";
 inline constexpr const char* kOdometry = "odometry_stream";
+inline constexpr const char* kStreamMap = "stream_map_checksum:";  ///< followed by the path of that map
+inline constexpr const char* kLive = "live";                       ///< present: a live run
 // Keys of kEnd.
 inline constexpr const char* kEvents = "events";
 inline constexpr const char* kEstimates = "estimates";

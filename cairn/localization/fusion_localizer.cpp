@@ -62,6 +62,7 @@ void FusionLocalizer::tick(const Event& event) {
     synchronizer_.restart_clock(event.arrival);
     watchdog_.restart(event.arrival);
     history_.restart();
+    forecast_.clear();
     told_.reset();
     warn("arrival clock set back", event, "it arrived more than 10 s before earlier ones");
     now_ = event.arrival;
@@ -125,14 +126,28 @@ void FusionLocalizer::work() {
 }
 
 void FusionLocalizer::admit() {
+  if (scheduler_.limited()) drop_what_is_too_old();
   const std::size_t ready = synchronizer_.ready();
-  if (ready == 0) return;
   candidates_.clear();
-  for (std::size_t i = 0; i < ready; ++i) {
-    candidates_.push_back({synchronizer_.waiting()[i].event.stream, ended_});
-  }
+  for (std::size_t i = 0; i < ready; ++i) candidates_.push_back(candidate_of(synchronizer_.waiting()[i]));
   if (!ended_) scheduler_.admit(candidates_);
   synchronizer_.take(candidates_, [&](Measurement&& measurement) { use(std::move(measurement)); });
+}
+
+// What waited for computing time until the history no longer reaches it must not be paid for any more.
+void FusionLocalizer::drop_what_is_too_old() {
+  const auto& waiting = synchronizer_.waiting();
+  while (!waiting.empty() && waiting[0].deferred && history_.is_stale(waiting[0].event.stamp)) {
+    decide(synchronizer_.remove(0), Outcome::kDroppedOverBudget);
+  }
+}
+
+Scheduler::Candidate FusionLocalizer::candidate_of(const Measurement& measurement) const {
+  Scheduler::Candidate candidate{measurement.event.stream, ended_};
+  if (!scheduler_.limited() || !belief_.started()) return candidate;
+  candidate.redo_s = to_seconds(history_.redo_cost(key_of(measurement)));
+  candidate.redos = forecast_.redos(belief_.stamp() - measurement.event.stamp, *now_);
+  return candidate;
 }
 
 void FusionLocalizer::use(Measurement&& measurement) {
@@ -141,12 +156,15 @@ void FusionLocalizer::use(Measurement&& measurement) {
     decide(measurement, measurement.deferred ? Outcome::kDroppedOverBudget : Outcome::kDroppedStale);
     return;
   }
-  if (belief_.started() && stamp < belief_.stamp()) late_stream_ = measurement.event.stream;
+  const bool late = belief_.started() && stamp < belief_.stamp();
+  if (late && !late_stream_) late_stream_ = measurement.event.stream;  // the earliest comes first
   history_.insert(std::move(measurement));
 }
 
 void FusionLocalizer::catch_up() {
-  history_.catch_up(belief_, [&](Timeline::Entry& entry, bool again) { apply(entry, again); });
+  const Duration depth =
+      history_.catch_up(belief_, [&](Timeline::Entry& entry, bool again) { apply(entry, again); });
+  if (depth > Duration{0}) forecast_.went_back(depth, *now_);
   if (revised_ && belief_.started()) tell(belief_.stamp());
   revised_ = false;
   late_stream_.reset();
@@ -157,7 +175,8 @@ void FusionLocalizer::apply(Timeline::Entry& entry, bool again) {
   const Event& event = entry.measurement.event;
   cost_clock_->start();
   const auto applied = belief_.apply(event, synchronizer_.odometry(), scheduler_);
-  if (applied.used) charge(entry, again, cost_clock_->stop(applied.work));
+  entry.cost = applied.used ? cost_clock_->stop(applied.work) : Duration{0};
+  charge(entry, again);
   const Outcome use = entry.measurement.deferred ? Outcome::kDeferred
                       : entry.late               ? Outcome::kReplayed
                                                  : Outcome::kUsed;
@@ -173,9 +192,10 @@ void FusionLocalizer::apply(Timeline::Entry& entry, bool again) {
 }
 
 // What is done again is paid for by the stream that came late.
-void FusionLocalizer::charge(const Timeline::Entry& entry, bool again, Duration cost) {
+void FusionLocalizer::charge(const Timeline::Entry& entry, bool again) {
+  if (entry.cost == Duration{0}) return;
   const StreamId own = entry.measurement.event.stream;
-  scheduler_.charge(again ? late_stream_.value_or(own) : own, cost);
+  again ? scheduler_.charge_redo(late_stream_.value_or(own), entry.cost) : scheduler_.charge(own, entry.cost);
 }
 
 void FusionLocalizer::tell(Time stamp) {

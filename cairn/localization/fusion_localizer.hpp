@@ -5,6 +5,7 @@
 #include "cairn/localization/history.hpp"
 #include "cairn/localization/localizer.hpp"
 #include "cairn/localization/pose_belief.hpp"
+#include "cairn/localization/rewind_forecast.hpp"
 #include "cairn/localization/scheduler.hpp"
 #include "cairn/localization/stream_binding.hpp"
 #include "cairn/localization/synchronizer.hpp"
@@ -76,10 +77,12 @@ class FusionLocalizer : public Localizer {
 
   void work();
   void admit();
+  void drop_what_is_too_old();
+  Scheduler::Candidate candidate_of(const Measurement& measurement) const;
   void use(Measurement&& measurement);
   void catch_up();
   void apply(Timeline::Entry& entry, bool again);
-  void charge(const Timeline::Entry& entry, bool again, Duration cost);
+  void charge(const Timeline::Entry& entry, bool again);
   void tell(Time stamp);
   void forget();
   void bound_the_queue();
@@ -97,6 +100,7 @@ class FusionLocalizer : public Localizer {
   Scheduler scheduler_;
   Watchdog watchdog_;
   Timeline history_;
+  RewindForecast forecast_;
   PoseBelief belief_;
   std::unique_ptr<CostClock> cost_clock_;
   Accounts accounts_;
@@ -106,9 +110,9 @@ class FusionLocalizer : public Localizer {
   std::optional<Time> now_;                       ///< newest arrival
   std::vector<Scheduler::Candidate> candidates_;  ///< scratch
   std::vector<std::size_t> queued_;               ///< scratch: deferred measurements per stream
-  std::optional<StreamId> late_stream_;           ///< whose late measurement makes the belief go back
-  std::optional<Time> told_;                      ///< newest stamp that the observer knows
-  bool revised_ = false;                          ///< something was applied again since it was told
+  std::optional<StreamId> late_stream_;  ///< whose late measurement the belief goes back furthest for
+  std::optional<Time> told_;             ///< newest stamp that the observer knows
+  bool revised_ = false;                 ///< something was applied again since it was told
   bool ended_ = false;
   std::uint64_t event_number_ = 0;             ///< of the event in process()
   Outcome event_outcome_ = Outcome::kPending;  ///< what became of it so far

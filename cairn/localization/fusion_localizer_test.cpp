@@ -207,6 +207,30 @@ TEST_F(FusionLocalizerTest, UnderLastingOverloadTheCheapStreamIsServedAndTheRest
   EXPECT_GT(count(Outcome::kUsed, 1) + count(Outcome::kDeferred, 1), 150) << "0.19 s a second at 50 ms";
 }
 
+// A live stream of 5 ms at 10 Hz, and one of 1 ms at 10 Hz that is half a second late: each of the latter one
+// by one would cost 25 ms of doing again, 310 ms per second in all.
+TEST_F(FusionLocalizerTest, LateOnesArePutInTogetherWhereTimeIsShort) {
+  FusionParts parts = fake_parts(&filter_, {5.0, 1.0});
+  parts.scheduler.policy = "cfs";
+  parts.scheduler.compute_share = 0.18;
+  parts.scheduler.queue = 32;
+  make(std::move(parts));
+  double behind_s = 0.0;
+  for (int i = 0; i <= 600; ++i) {
+    odometry(0.1 * i);
+    measure(0.1 * i, 1);
+    if (i >= 5) measure(0.1 * i - 0.5, 2, 0.5);
+    if (i < 20) continue;
+    const Estimate now = *localizer_->estimate();
+    behind_s = std::max(behind_s, to_seconds(now.stamp - now.belief_stamp));
+  }
+  localizer_->finish();
+  EXPECT_EQ(drop_rate(localizer_->outcomes()[1]), 0.0);
+  EXPECT_LT(drop_rate(localizer_->outcomes()[2]), 0.02);
+  EXPECT_LT(localizer_->rewinds(), 400) << "of 596 late ones";
+  EXPECT_LT(behind_s, 0.35) << "going back does not keep the live stream waiting";
+}
+
 TEST_F(FusionLocalizerTest, TheRateIsThatOfTheStamps) {
   FusionParts parts = fake_parts(&filter_, {1.0, 1.0});
   parts.scheduler.policy = "rate";

@@ -26,13 +26,15 @@ class History {
     Measurement measurement;
     Outcome outcome = Outcome::kPending;  ///< of the last time that it was applied
     bool late = false;                    ///< later ones were applied before it came
+    Duration cost{0};                     ///< of the last time that it was applied; apply() sets it
+    Duration total{0};                    ///< of all that was applied up to it, from some common beginning
   };
 
   static constexpr std::size_t kMostEntries = 4096;
-  static constexpr std::size_t kCheckpoints = 16;
+  static constexpr std::size_t kCheckpoints = 24;
 
   /// @param span how far back the history reaches from the newest measurement; zero: not at all
-  explicit History(Duration span) : span_(span), spacing_(span / (kCheckpoints - 2)) {}
+  explicit History(Duration span) : span_(span), spacing_(span / kSpaces) {}
 
   Duration span() const { return span_; }
   bool empty() const { return entries_.empty(); }
@@ -58,6 +60,17 @@ class History {
     return reach_ && stamp < *reach_;
   }
 
+  /// Cost of all that would have to be done again if a measurement were put at this place.
+  Duration redo_cost(const TimelineKey& key) const {
+    if (used_ == 0 || applied_ == 0) return Duration{0};
+    const std::size_t place = place_of(key);
+    if (place >= applied_) return Duration{0};
+    std::size_t slot = used_ - 1;
+    while (slot > 0 && slots_[slot].index > place) --slot;
+    const Entry& first = entries_[slots_[slot].index];
+    return entries_[applied_ - 1].total - first.total + first.cost;
+  }
+
   /// Puts a measurement at its place; catch_up() applies it. @pre !is_stale(stamp), !contains(key)
   void insert(Measurement measurement) {
     const bool ordered = span_ > Duration{0};
@@ -75,16 +88,18 @@ class History {
     redo_from(static_cast<std::size_t>(later - entries_.begin()));
   }
 
-  /// Applies all that is not applied, in order: `apply(entry, again)` has to set the entry's outcome; `again`
-  /// tells that it had been applied before.
+  /// Applies all that is not applied, in order: `apply(entry, again)` has to set the entry's outcome and
+  /// cost; `again` tells that it had been applied before. Returns how far the belief went back for it.
   template <class Apply>
-  void catch_up(Belief& belief, const Apply& apply) {
-    if (redo_) go_back(belief);
+  Duration catch_up(Belief& belief, const Apply& apply) {
+    const Duration depth = redo_ ? go_back(belief) : Duration{0};
     for (; applied_ < entries_.size(); ++applied_) {
       if (span_ > Duration{0}) keep_checkpoint(belief);
       Entry& entry = entries_[applied_];
       apply(entry, entry.outcome != Outcome::kPending);
+      entry.total = (applied_ > 0 ? entries_[applied_ - 1].total : Duration{0}) + entry.cost;
     }
+    return depth;
   }
 
   /// Stamp from which on measurements are still needed if the newest is at `newest`.
@@ -109,6 +124,8 @@ class History {
   }
 
  private:
+  static constexpr int kSpaces = 14;  ///< between checkpoints; those after late measurements come on top
+
   /// The belief before entries_[index].
   struct Slot {
     typename Belief::Checkpoint belief;
@@ -133,20 +150,25 @@ class History {
     while (used_ > 1 && slots_[used_ - 1].index > place) --used_;
   }
 
-  void go_back(Belief& belief) {
+  Duration go_back(Belief& belief) {
     redo_.reset();
     const Slot& slot = slots_[used_ - 1];
+    const Duration depth = newest() - entries_[slot.index].measurement.event.stamp;
     belief.restore(slot.belief);
     applied_ = slot.index;
     ++rewinds_;
+    return depth;
   }
 
+  // After what came late, too: what comes late next is of the same stream, and a little newer.
   void keep_checkpoint(const Belief& belief) {
     const Time stamp = entries_[applied_].measurement.event.stamp;
     if (used_ > 0) {
       const Slot& last = slots_[used_ - 1];
       if (last.index == applied_) return;
-      if (stamp - last.stamp < spacing_ && applied_ - last.index < kMostEntries / kCheckpoints) return;
+      const bool after_late = entries_[applied_ - 1].late && !entries_[applied_].late;
+      const bool far = stamp - last.stamp >= spacing_ || applied_ - last.index >= kMostEntries / kCheckpoints;
+      if (!far && !after_late) return;
     }
     if (used_ == kCheckpoints) thin();
     if (used_ == slots_.size()) slots_.emplace_back();

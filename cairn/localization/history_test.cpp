@@ -29,10 +29,12 @@ struct Recollection {
 class HistoryTest : public ::testing::Test {
  protected:
   void catch_up() {
-    history_.catch_up(belief_, [&](History<Recollection>::Entry& entry, bool again) {
+    depth_ = history_.catch_up(belief_, [&](History<Recollection>::Entry& entry, bool again) {
       belief_.applied.push_back(key_of(entry.measurement));
       entry.outcome = entry.late ? Outcome::kReplayed : Outcome::kUsed;
+      entry.cost = seconds(1 + key_of(entry.measurement).stream);
       (again ? again_ : first_) += 1;
+      if (again) cost_again_ += entry.cost;
     });
     history_.forget_before(history_.wanted_from());
   }
@@ -47,6 +49,7 @@ class HistoryTest : public ::testing::Test {
   History<Recollection> history_{seconds(2)};
   Recollection belief_;
   int first_ = 0, again_ = 0;
+  Duration depth_{0}, cost_again_{0};
 };
 
 TEST_F(HistoryTest, InOrderNothingIsDoneTwice) {
@@ -65,6 +68,38 @@ TEST_F(HistoryTest, PutsALateOneAtItsTrueTime) {
   EXPECT_EQ(history_.entries()[3].outcome, Outcome::kUsed) << "in time, but applied again";
   EXPECT_EQ(first_, 4);
   EXPECT_GE(again_, 1);
+}
+
+TEST_F(HistoryTest, KnowsWhatItWouldCostToGoBack) {
+  EXPECT_EQ(history_.redo_cost({at(0), 0}), seconds(0));
+  for (int i = 0; i <= 10; ++i) arrive(measurement(0.1 * i, i % 2));
+  EXPECT_EQ(history_.redo_cost({at(1.05), 0}), seconds(0)) << "nothing is later";
+  const auto before = history_.rewinds();
+  for (const double t : {0.95, 0.55, 0.02, 0.33}) {
+    const Duration price = history_.redo_cost({at(t), 7});
+    cost_again_ = seconds(0);
+    arrive(measurement(t, 7));
+    EXPECT_EQ(price, cost_again_) << t;
+  }
+  EXPECT_EQ(history_.rewinds(), before + 4);
+}
+
+TEST_F(HistoryTest, TellsHowFarItWentBack) {
+  for (int i = 0; i <= 10; ++i) arrive(measurement(0.1 * i));
+  EXPECT_EQ(depth_, seconds(0));
+  arrive(measurement(0.55));
+  EXPECT_GE(depth_, std::chrono::milliseconds(450));
+  EXPECT_LE(depth_, std::chrono::milliseconds(650));
+}
+
+TEST_F(HistoryTest, TheNextLateOneOfAStreamFindsACheckpointRightBeforeIt) {
+  for (int i = 0; i <= 200; ++i) {
+    arrive(measurement(0.01 * i));
+    if (i % 10 != 7 || i < 60) continue;
+    again_ = 0;
+    arrive(measurement(0.01 * i - 0.505, 1));
+    if (i > 60) EXPECT_LE(again_, 61) << "51 came after it, 9 between it and the late one before it";
+  }
 }
 
 TEST_F(HistoryTest, OfOneStampTheLowerStreamComesFirst) {

@@ -1,12 +1,15 @@
 #include "cairn/localization/scheduler.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace cairn {
 namespace {
 
 constexpr double kCostMemory = 0.8;
+constexpr double kRedoShare = 0.5;  // of the computing time, for what has to be done again
+constexpr double kPlenty = 0.5;     // of the largest credit: then computing time is not short
 constexpr Duration kStampTolerance = std::chrono::milliseconds(1);
 
 }  // namespace
@@ -25,14 +28,19 @@ void SchedulerOptions::visit(OptionVisitor& v) {
 }
 
 Scheduler::Scheduler(const SchedulerOptions& options, std::vector<Share> shares)
-    : options_(options), streams_(shares.size()), credit_s_(options.compute_share) {
+    : options_(options),
+      streams_(shares.size()),
+      credit_s_(options.compute_share),
+      redo_credit_s_(kRedoShare * options.compute_share) {
   for (std::size_t i = 0; i < shares.size(); ++i) streams_[i].share = shares[i];
 }
 
 void Scheduler::advance(Time now) {
   if (now_ && now > *now_) {
-    const double earned = to_seconds(std::min<Duration>(now - *now_, std::chrono::seconds(1)));
-    credit_s_ = std::min(credit_s_ + options_.compute_share * earned, options_.compute_share);
+    const double seconds = to_seconds(std::min<Duration>(now - *now_, std::chrono::seconds(1)));
+    const double earned_s = options_.compute_share * seconds;
+    credit_s_ = std::min(credit_s_ + earned_s, options_.compute_share);
+    redo_credit_s_ = std::min(redo_credit_s_ + kRedoShare * earned_s, kRedoShare * options_.compute_share);
   }
   now_ = now;
 }
@@ -43,38 +51,57 @@ void Scheduler::admit(std::span<Candidate> waiting) {
     return;
   }
   wake(waiting);
-  double credit_s = credit_s_;
-  while (credit_s > 0.0) {
-    Candidate* chosen = next(waiting);
-    if (chosen == nullptr) return;
-    chosen->admitted = true;
-    Stream& stream = streams_[chosen->stream];
-    floor_s_ = std::max(floor_s_, stream.planned_s);
-    stream.planned_s += stream.cost_s * stream.share.nice;
-    credit_s -= stream.cost_s;
-  }
+  options_.policy == "cfs" ? admit_fairly(waiting) : admit_oldest(waiting);
 }
 
 void Scheduler::wake(std::span<const Candidate> waiting) {
+  for (Stream& stream : streams_) stream.saving = false;  // here: nothing waits
   for (const Candidate& candidate : waiting) {
     Stream& stream = streams_[candidate.stream];
     if (!stream.waiting) stream.virtual_s = std::max(stream.virtual_s, floor_s_);
-    stream.waiting = true;
+    stream.waiting = stream.saving = true;
   }
-  for (Stream& stream : streams_) stream.planned_s = stream.virtual_s;
+  for (Stream& stream : streams_) {
+    stream.waiting = stream.saving;
+    stream.saving = false;
+    stream.planned_s = stream.virtual_s;
+  }
 }
 
-Scheduler::Candidate* Scheduler::next(std::span<Candidate> waiting) {
-  if (options_.policy == "cfs") return fairest(waiting);
-  const auto first = std::find_if(waiting.begin(), waiting.end(), [](const auto& c) { return !c.admitted; });
-  return first == waiting.end() ? nullptr : &*first;
+void Scheduler::admit_oldest(std::span<Candidate> waiting) {
+  Plan plan{credit_s_};
+  for (Candidate& candidate : waiting) {
+    if (plan.credit_s <= 0.0) return;
+    serve(candidate, plan);
+  }
+}
+
+void Scheduler::admit_fairly(std::span<Candidate> waiting) {
+  Plan plan{credit_s_};
+  double until_s = std::numeric_limits<double>::infinity();
+  while (plan.credit_s > 0.0) {
+    Candidate* chosen = fairest(waiting);
+    if (chosen == nullptr || streams_[chosen->stream].planned_s > until_s) return;
+    Stream& stream = streams_[chosen->stream];
+    double price = price_s(*chosen, plan);
+    if (const Together late = all_late(chosen->stream, waiting); price > stream.cost_s && late.first) {
+      chosen = late.first;
+      price = late.price_s;
+    }
+    if (price <= plan.credit_s || plan.credit_s >= options_.compute_share) {
+      serve(*chosen, plan);
+    } else {
+      stream.saving = true;
+      until_s = std::min(until_s, stream.planned_s + price * stream.share.nice);
+    }
+  }
 }
 
 // The newest measurement of the stream with the least virtual time; of equals the lower stream.
 Scheduler::Candidate* Scheduler::fairest(std::span<Candidate> waiting) {
   Candidate* best = nullptr;
   for (Candidate& candidate : waiting) {
-    if (candidate.admitted) continue;
+    if (candidate.admitted || streams_[candidate.stream].saving || !may_be_redone(candidate)) continue;
     const double planned_s = streams_[candidate.stream].planned_s;
     const double best_s = best != nullptr ? streams_[best->stream].planned_s : planned_s;
     const bool fairer =
@@ -84,13 +111,55 @@ Scheduler::Candidate* Scheduler::fairest(std::span<Candidate> waiting) {
   return best;
 }
 
+// All late ones of a stream go back together, for the earliest of them, where they do not ask for too much.
+Scheduler::Together Scheduler::all_late(StreamId stream, std::span<Candidate> waiting) const {
+  Together late;
+  for (Candidate& candidate : waiting) {
+    if (candidate.stream != stream || candidate.admitted || candidate.redo_s == 0.0) continue;
+    if (late.first == nullptr) {
+      late.first = &candidate;
+      late.price_s = candidate.redo_s;
+    }
+    late.price_s += streams_[stream].cost_s;
+  }
+  if (late.price_s > kRedoShare * options_.compute_share) late.first = nullptr;
+  return late;
+}
+
+bool Scheduler::may_be_redone(const Candidate& candidate) const {
+  const double redo_s = candidate.redos * streams_[candidate.stream].cost_s;
+  const bool plenty = credit_s_ >= kPlenty * options_.compute_share;
+  return plenty || redo_s <= std::max(redo_credit_s_, 0.0) ||
+         redo_credit_s_ >= kRedoShare * options_.compute_share;
+}
+
+double Scheduler::price_s(const Candidate& candidate, const Plan& plan) const {
+  return streams_[candidate.stream].cost_s + std::max(candidate.redo_s - plan.redo_s, 0.0);
+}
+
+void Scheduler::serve(Candidate& candidate, Plan& plan) {
+  Stream& stream = streams_[candidate.stream];
+  const double price = price_s(candidate, plan);
+  candidate.admitted = true;
+  floor_s_ = std::max(floor_s_, stream.planned_s);
+  stream.planned_s += price * stream.share.nice;
+  plan.credit_s -= price;
+  plan.redo_s = std::max(plan.redo_s, candidate.redo_s);
+  redo_credit_s_ -= candidate.redos * stream.cost_s;
+}
+
 void Scheduler::charge(StreamId id, Duration cost) {
-  Stream& stream = streams_[id];
+  double& known_s = streams_[id].cost_s;
   const double cost_s = to_seconds(cost);
-  stream.cost_s = stream.cost_s == 0.0 ? cost_s : kCostMemory * stream.cost_s + (1.0 - kCostMemory) * cost_s;
-  stream.virtual_s += cost_s * stream.share.nice;
+  known_s = known_s == 0.0 ? cost_s : kCostMemory * known_s + (1.0 - kCostMemory) * cost_s;
+  pay(id, cost_s);
+}
+
+void Scheduler::charge_redo(StreamId id, Duration cost) { pay(id, to_seconds(cost)); }
+
+void Scheduler::pay(StreamId id, double cost_s) {
+  streams_[id].virtual_s += cost_s * streams_[id].share.nice;
   credit_s_ -= cost_s;
-  stream.waiting = false;
 }
 
 bool Scheduler::due(StreamId stream, std::optional<Time> last_used, Time stamp) const {

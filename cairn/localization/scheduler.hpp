@@ -30,11 +30,21 @@ struct SchedulerOptions {
 ///         others, so that it cannot save up time.
 /// What is not admitted waits; nothing is lost here. The credit of computing time grows by `compute_share`
 /// per second, up to that of one second, and falls by what the updates cost.
+///
+/// Under cfs an update has to be paid for before it is made: a dear one must not put the others off until its
+/// debt is paid. While its stream saves up for it, the others go on as far as if it had been made. The price
+/// of a measurement that comes late is that of all that has to be done again for it, but those of a stream go
+/// back together, for the price of the earliest, as long as that is not more than half a second's computing
+/// time. What is used before late data of its time has come will be done again with that: such work may take
+/// half of the computing time, lest the dear models are done over and over; what goes beyond waits until it
+/// is older than the late data, and is then used once.
 class Scheduler {
  public:
   struct Candidate {
     StreamId stream = 0;
     bool admitted = false;
+    double redo_s = 0.0;  ///< computing time of all that has to be done again if this is put in
+    double redos = 0.0;   ///< how often it is itself expected to be done again (RewindForecast)
   };
   /// What a stream may want to differ in.
   struct Share {
@@ -52,6 +62,8 @@ class Scheduler {
 
   /// An update of `stream` had this cost.
   void charge(StreamId stream, Duration cost);
+  /// Computing time for what was done again because `stream` came late.
+  void charge_redo(StreamId stream, Duration cost);
 
   /// Policy rate: whether a measurement is far enough from the last one of its stream that was used.
   bool due(StreamId stream, std::optional<Time> last_used, Time stamp) const;
@@ -70,16 +82,33 @@ class Scheduler {
     double cost_s = 0.0;  ///< what an update costs, exponential average
     bool waiting = false;
     double planned_s = 0.0;  ///< virtual time if what was admitted costs what is expected
+    bool saving = false;     ///< the credit does not cover what it wants next
+  };
+  struct Plan {
+    double credit_s = 0.0;
+    double redo_s = 0.0;  ///< of the earliest measurement that was admitted
+  };
+
+  struct Together {
+    Candidate* first = nullptr;
+    double price_s = 0.0;
   };
 
   void wake(std::span<const Candidate> waiting);
-  Candidate* next(std::span<Candidate> waiting);
+  void admit_oldest(std::span<Candidate> waiting);
+  void admit_fairly(std::span<Candidate> waiting);
   Candidate* fairest(std::span<Candidate> waiting);
+  Together all_late(StreamId stream, std::span<Candidate> waiting) const;
+  bool may_be_redone(const Candidate& candidate) const;
+  double price_s(const Candidate& candidate, const Plan& plan) const;
+  void serve(Candidate& candidate, Plan& plan);
+  void pay(StreamId stream, double cost_s);
 
   SchedulerOptions options_;
   std::vector<Stream> streams_;
   std::optional<Time> now_;
   double credit_s_;
+  double redo_credit_s_;  ///< for doing again what is used before late data of its time
   double floor_s_ = 0.0;  ///< virtual time of the stream that was served last
 };
 

@@ -92,8 +92,99 @@ TEST(Scheduler, NiceChangesTheShares) {
 
 TEST(Scheduler, CfsTakesTheNewestOfAStream) {
   Scheduler scheduler(options("cfs", 0.1), std::vector<Scheduler::Share>(1));
-  scheduler.charge(0, milliseconds(90));
+  scheduler.charge(0, milliseconds(40));  // 60 ms are left: enough for one more
   EXPECT_EQ(admitted(scheduler, {0, 0, 0}), (std::vector<bool>{false, false, true}));
+}
+
+TEST(Scheduler, CfsMakesNoDebts) {
+  Scheduler scheduler(options("cfs", 0.1), std::vector<Scheduler::Share>(2));
+  scheduler.charge(0, milliseconds(1));
+  scheduler.charge(1, milliseconds(60));  // 39 ms are left
+  EXPECT_EQ(admitted(scheduler, {1, 0}), (std::vector<bool>{false, true})) << "the cheap one need not wait";
+  scheduler.advance(at(0));
+  scheduler.advance(at(0.22));
+  EXPECT_EQ(admitted(scheduler, {1}), std::vector<bool>{true}) << "saved up";
+}
+
+TEST(Scheduler, WhatCostsMoreThanCanBeSavedIsMadeWithAllThatCan) {
+  Scheduler scheduler(options("cfs", 0.1), std::vector<Scheduler::Share>(1));
+  scheduler.charge(0, milliseconds(250));
+  scheduler.advance(at(0));
+  scheduler.advance(at(1.0));
+  scheduler.advance(at(2.0));
+  EXPECT_EQ(admitted(scheduler, {0}), std::vector<bool>{false});
+  scheduler.advance(at(3.0));
+  EXPECT_EQ(admitted(scheduler, {0}), std::vector<bool>{true});
+}
+
+TEST(Scheduler, WhileOneSavesUpTheOthersGoOnAsFarAsIfItHadBeenServed) {
+  Scheduler scheduler(options("cfs", 0.1), std::vector<Scheduler::Share>(2));
+  admitted(scheduler, {0, 1});
+  scheduler.charge(1, milliseconds(30));
+  for (int i = 0; i < 5; ++i) scheduler.charge(0, milliseconds(9));
+  EXPECT_EQ(admitted(scheduler, {0, 0, 0, 1}), (std::vector<bool>{false, true, true, false}))
+      << "25 ms are left, and its 30 would bring the dear one to 60";
+  for (int i = 0; i < 2; ++i) scheduler.charge(0, milliseconds(9));
+  scheduler.advance(at(0));
+  scheduler.advance(at(0.2));
+  EXPECT_EQ(admitted(scheduler, {0, 1}), (std::vector<bool>{false, false})) << "now it is its turn";
+  scheduler.advance(at(0.31));
+  EXPECT_EQ(admitted(scheduler, {0, 1}), (std::vector<bool>{false, true}));
+}
+
+Candidates late(std::initializer_list<double> redo_s) {
+  Candidates candidates;
+  for (const double s : redo_s) candidates.push_back({0, false, s});
+  return candidates;
+}
+
+TEST(Scheduler, LateOnesGoBackTogether) {
+  Scheduler scheduler(options("cfs", 0.1), std::vector<Scheduler::Share>(1));
+  scheduler.charge(0, milliseconds(10));
+  scheduler.charge(0, milliseconds(50));
+  scheduler.charge_redo(0, milliseconds(0));
+  const double cost_s = 0.018;  // 0.8 * 10 + 0.2 * 50 ms; 40 ms are left
+  Candidates together = late({0.012, 0.004});
+  scheduler.admit(together);
+  EXPECT_FALSE(together[0].admitted || together[1].admitted) << 2 * cost_s + 0.012 << " is saved up for,";
+  scheduler.advance(at(0));
+  scheduler.advance(at(0.085));
+  scheduler.admit(together);
+  EXPECT_TRUE(together[0].admitted && together[1].admitted) << "not spent on the later one alone";
+}
+
+TEST(Scheduler, WhereAllLateOnesAskForTooMuchTheNewestGoes) {
+  Scheduler scheduler(options("cfs", 0.1), std::vector<Scheduler::Share>(1));
+  scheduler.charge(0, milliseconds(10));
+  Candidates candidates = late({0.085, 0.05});
+  scheduler.admit(candidates);
+  EXPECT_FALSE(candidates[0].admitted);
+  EXPECT_TRUE(candidates[1].admitted);
+}
+
+TEST(Scheduler, WhatIsDoneAgainIsPaidByWhoCameLate) {
+  Scheduler scheduler(options("cfs", 0.1), std::vector<Scheduler::Share>(2));
+  scheduler.charge(0, milliseconds(10));
+  scheduler.charge_redo(0, milliseconds(30));
+  EXPECT_NEAR(scheduler.virtual_time_s(0), 0.04, 1e-12);
+  EXPECT_NEAR(scheduler.credit_s(), 0.06, 1e-12);
+  EXPECT_EQ(admitted(scheduler, {0, 0, 0, 0, 0, 0}), std::vector<bool>(6, true)) << "an update costs 10 ms";
+}
+
+TEST(Scheduler, TheDearWaitUntilTheyNeedNotBeDoneAgain) {
+  Scheduler scheduler(options("cfs", 0.1), std::vector<Scheduler::Share>(1));
+  scheduler.advance(at(0));
+  for (int i = 0; i < 2; ++i) scheduler.charge(0, milliseconds(30));
+  Candidates thrice{{0, false, 0.0, 3.0}}, never{{0, false, 0.0, 0.0}};
+  scheduler.admit(thrice);
+  EXPECT_TRUE(thrice[0].admitted) << "90 ms are more than can be saved for that, but all of it is there";
+  scheduler.charge(0, milliseconds(30));
+  scheduler.advance(at(0.35));
+  thrice[0].admitted = false;
+  scheduler.admit(thrice);
+  EXPECT_FALSE(thrice[0].admitted);
+  scheduler.admit(never);
+  EXPECT_TRUE(never[0].admitted) << "45 ms are there";
 }
 
 TEST(Scheduler, AStreamThatSleptCannotSaveUpTime) {

@@ -43,4 +43,14 @@ std::uint64_t checksum(const VectorMap& map) {
   return fnv.hash();
 }
 
+std::uint64_t checksum(const MapSet& maps) {
+  const std::uint64_t grid = checksum(*maps.grid());
+  const auto walls = maps.find<VectorMap>();
+  if (!walls) return grid;
+  Fnv1a fnv;
+  fnv.add(grid);
+  fnv.add(checksum(*walls));
+  return fnv.hash();
+}
+
 }  // namespace cairn

@@ -24,5 +24,19 @@ TEST(Checksum, DependsOnStatesOnly) {
   EXPECT_EQ(of({2, 1, 0.05, {0, 0, 0}}, {0, 100}), of({2, 1, 0.05, {-0.0, 0, 0}}, {10, 70}));
 }
 
+TEST(Checksum, OfASetCoversTheWallsToo) {
+  const auto grid = std::make_shared<const OccupancyGrid>(GridGeometry{2, 1, 0.05, {0, 0, 0}},
+                                                          std::vector<OccupancyGrid::Cell>{0, 100});
+  const auto with_wall = [&](double x) {
+    MapSet maps(grid);
+    maps.add(std::make_shared<const VectorMap>(std::vector<Wall>{{{0.0, 0.0}, {x, 0.0}}}));
+    return checksum(maps);
+  };
+  EXPECT_EQ(checksum(MapSet(grid)), checksum(*grid));
+  EXPECT_EQ(with_wall(1.0), with_wall(1.0));
+  EXPECT_NE(with_wall(1.0), with_wall(1.001)) << "less than a cell, but another map";
+  EXPECT_NE(with_wall(1.0), checksum(*grid));
+}
+
 }  // namespace
 }  // namespace cairn

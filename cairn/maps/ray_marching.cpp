@@ -84,6 +84,8 @@ RayMarcher::~RayMarcher() = default;
 RayMarcher::RayMarcher(RayMarcher&&) noexcept = default;
 RayMarcher& RayMarcher::operator=(RayMarcher&&) noexcept = default;
 
+double RayMarcher::cell_m() const { return field_->geometry.resolution_m; }
+
 void RayMarcher::cast(std::span<const Pose2> T_map_sensor, std::span<const double> bearings_rad,
                       std::span<float> ranges_m) const {
   CAIRN_ASSERT(ranges_m.size() == T_map_sensor.size() * bearings_rad.size());

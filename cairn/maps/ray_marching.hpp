@@ -24,6 +24,7 @@ class RayMarcher {
   RayMarcher& operator=(RayMarcher&&) noexcept;
 
   double max_range_m() const { return max_range_m_; }
+  double cell_m() const;  ///< width of a cell
 
   /// Ranges (m) as cast_ray gives them, for every pose and every bearing.
   /// @param T_map_sensor the poses; one that is not finite gets `max_range_m` for every bearing

@@ -116,6 +116,13 @@ BeamModel::Tables::Tables(const BeamModelOptions& o) : steps_per_m_(kStepsPerSig
   }
 }
 
+void expect_ranges(const RayMarcher& map, std::span<const Pose2> T_map_sensor,
+                   std::span<const double> bearings_rad, std::span<float> ranges_m) {
+  map.cast(T_map_sensor, bearings_rad, ranges_m);
+  const auto most = static_cast<float>(map.max_range_m()), depth = static_cast<float>(0.5 * map.cell_m());
+  for (float& range : ranges_m) range = range < most ? std::min(range + depth, most) : most;
+}
+
 // The beams of one scan with all that does not depend on the state.
 class BeamModel::Beams {
  public:
@@ -129,7 +136,7 @@ class BeamModel::Beams {
       T_map_sensor.clear();
       for (const Pose2& state : block) T_map_sensor.push_back(state * T_base_sensor_);
       expected.resize(block.size() * bearings_.size());
-      map_->cast(T_map_sensor, bearings_, expected);
+      expect_ranges(*map_, T_map_sensor, bearings_, expected);
       for (std::size_t i = 0; i < block.size(); ++i) {
         out[begin + i] = scale_ * score(std::span(expected).subspan(i * bearings_.size(), bearings_.size()));
       }
@@ -208,7 +215,7 @@ double BeamModel::explained_share(const LaserScan& scan, const Pose2& T_map_base
   for (const BeamReading& reading : readings) bearings.push_back(reading.bearing_rad);
   const Pose2 T_map_sensor = T_map_base * T_base_sensor_;
   std::vector<float> expected(readings.size());
-  map_->cast(std::span(&T_map_sensor, 1), bearings, expected);
+  expect_ranges(*map_, std::span(&T_map_sensor, 1), bearings, expected);
   const double tolerance = std::max(kLeastExplained_m, kExplainedSigmas * options_.sigma_hit_m);
   const double reach = std::min(reach_m(scan, limits_), map_->max_range_m());
   std::size_t explained = 0;

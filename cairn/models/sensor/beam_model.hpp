@@ -50,6 +50,13 @@ class BeamMixture {
   double sigma_m_, lambda_per_m_, max_range_m_;
 };
 
+/// The ranges r that a map lets a sensor expect, laid out as by RayMarcher::cast; `map.max_range_m()` where a
+/// ray meets nothing. A ray ends at the front of an occupied cell, but the wall that made it occupied went
+/// through it somewhere: on average half a cell further on. Without that a laser that looks one way sits half
+/// a cell too far back: 2.5 cm with cells of 5 cm.
+void expect_ranges(const RayMarcher& map, std::span<const Pose2> T_map_sensor,
+                   std::span<const double> bearings_rad, std::span<float> ranges_m);
+
 /// Beam model of range finders: a mixture per beam on the range that a ray cast into the map meets.
 ///   log p(z | x) = s * sum_k log p(z_k | r_k(x)),  s = min(1, effective_beams / K)
 /// Beams that tell no range but do not say "nothing within reach" (NaN, zero, below the least range) are left

@@ -62,7 +62,7 @@ double reference(const BeamModelOptions& options, const LaserScan& scan, const P
   const auto readings = select_readings(scan, {}, options.max_beams);
   for (const BeamReading& reading : readings) {
     const Pose2 ray{T_map_sensor.x, T_map_sensor.y, T_map_sensor.theta + reading.bearing_rad};
-    const double r = cast_ray(grid, ray, 20.0);
+    const double r = cast_ray(grid, ray, 20.0) + 0.5 * grid.geometry().resolution_m;
     sum += mixture.log_likelihood(reading.range_m, r < 20.0 ? r : 1e9);
   }
   return sum * std::min(1.0, options.effective_beams / static_cast<double>(readings.size()));
@@ -91,6 +91,31 @@ TEST(BeamModel, IsCloseToTheReference) {
   }
   EXPECT_LE(total / 200.0, 0.05);
   EXPECT_LE(largest, 0.35);
+}
+
+// A wall that is drawn into a grid goes through its cells somewhere: whatever its offset, looking at it from
+// one side must not move the robot to that side, on average.
+TEST(BeamModel, ALaserThatLooksOneWayIsNotPushedBack) {
+  constexpr double kCell = 0.1, kRange = 2.0;
+  double pushed = 0.0;
+  for (int offset = 0; offset < 10; ++offset) {
+    const double wall = 3.0 + kCell * (offset + 0.5) / 10.0;
+    GridGeometry geometry{60, 60, kCell, {0.0, 0.0, 0.0}};
+    std::vector<OccupancyGrid::Cell> cells(geometry.size(), 0);
+    for (int row = 0; row < 60; ++row) cells[static_cast<std::size_t>(row) * 60 + 30] = 100;
+    const BeamModel model(std::make_shared<const RayMarcher>(OccupancyGrid(geometry, std::move(cells)), 20.0),
+                          {}, {}, {});
+    LaserScan scan{{}, -0.3, 0.1, 0.05, 20.0, {}};
+    for (int k = 0; k < 7; ++k)
+      scan.ranges_m.push_back(static_cast<float>(kRange / std::cos(-0.3 + 0.1 * k)));
+    double best = -1e9, best_x = 0.0;
+    for (double x = wall - kRange - 0.2; x < wall - kRange + 0.2; x += 0.001) {
+      const double here = score(model, scan, {x, 3.03, 0.0});
+      if (here > best) best = here, best_x = x;
+    }
+    pushed += (best_x - (wall - kRange)) / 10.0;
+  }
+  EXPECT_NEAR(pushed, 0.0, 0.005);
 }
 
 TEST(BeamModel, ManyBeamsDoNotUnderflow) {
