@@ -9,6 +9,8 @@ namespace cairn {
 namespace {
 
 constexpr Duration kClockSetBack = std::chrono::seconds(10);
+// What is dear to do again is used at once, all the same, where the belief would fall further behind.
+constexpr Duration kMostBehind = std::chrono::milliseconds(200);
 
 Duration history_of(const TimeOptions& options) {
   return options.late_policy == "replay" ? duration_from_seconds(options.history_s) : Duration{0};
@@ -101,6 +103,7 @@ Outcome FusionLocalizer::take_measurement(const Event& event) {
   if (history_.is_stale(key.stamp)) return Outcome::kDroppedStale;
   Measurement measurement{event, event_number_, false};
   measurement.event.stamp = key.stamp;
+  measurement.came_late = belief_.started() && key.stamp < belief_.stamp();
   synchronizer_.add(std::move(measurement));
   return Outcome::kPending;
 }
@@ -145,8 +148,10 @@ void FusionLocalizer::drop_what_is_too_old() {
 Scheduler::Candidate FusionLocalizer::candidate_of(const Measurement& measurement) const {
   Scheduler::Candidate candidate{measurement.event.stream, ended_};
   if (!scheduler_.limited() || !belief_.started()) return candidate;
+  const Duration age = belief_.stamp() - measurement.event.stamp;
   candidate.redo_s = to_seconds(history_.redo_cost(key_of(measurement)));
-  candidate.redos = forecast_.redos(belief_.stamp() - measurement.event.stamp, *now_);
+  if (-age < kMostBehind && !measurement.came_late) candidate.redos = forecast_.redos(age, *now_);
+  candidate.rides = !measurement.came_late && forecast_.redos(Duration{0}, *now_) > 0.0;
   return candidate;
 }
 
@@ -157,6 +162,7 @@ void FusionLocalizer::use(Measurement&& measurement) {
     return;
   }
   const bool late = belief_.started() && stamp < belief_.stamp();
+  came_late_ |= late && measurement.came_late;
   if (late && !late_stream_) late_stream_ = measurement.event.stream;  // the earliest comes first
   history_.insert(std::move(measurement));
 }
@@ -164,7 +170,8 @@ void FusionLocalizer::use(Measurement&& measurement) {
 void FusionLocalizer::catch_up() {
   const Duration depth =
       history_.catch_up(belief_, [&](Timeline::Entry& entry, bool again) { apply(entry, again); });
-  if (depth > Duration{0}) forecast_.went_back(depth, *now_);
+  if (came_late_) forecast_.went_back(depth, *now_);
+  came_late_ = false;
   if (revised_ && belief_.started()) tell(belief_.stamp());
   revised_ = false;
   late_stream_.reset();

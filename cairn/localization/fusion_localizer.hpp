@@ -112,6 +112,7 @@ class FusionLocalizer : public Localizer {
   std::vector<std::size_t> queued_;               ///< scratch: deferred measurements per stream
   std::optional<StreamId> late_stream_;  ///< whose late measurement the belief goes back furthest for
   std::optional<Time> told_;             ///< newest stamp that the observer knows
+  bool came_late_ = false;               ///< one of those that it goes back for came late
   bool revised_ = false;                 ///< something was applied again since it was told
   bool ended_ = false;
   std::uint64_t event_number_ = 0;             ///< of the event in process()

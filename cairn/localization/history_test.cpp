@@ -72,7 +72,7 @@ TEST_F(HistoryTest, PutsALateOneAtItsTrueTime) {
 
 TEST_F(HistoryTest, KnowsWhatItWouldCostToGoBack) {
   EXPECT_EQ(history_.redo_cost({at(0), 0}), seconds(0));
-  for (int i = 0; i <= 10; ++i) arrive(measurement(0.1 * i, i % 2));
+  for (int i = 0; i <= 10; ++i) arrive(measurement(0.1 * i, static_cast<StreamId>(i % 2)));
   EXPECT_EQ(history_.redo_cost({at(1.05), 0}), seconds(0)) << "nothing is later";
   const auto before = history_.rewinds();
   for (const double t : {0.95, 0.55, 0.02, 0.33}) {
@@ -98,7 +98,8 @@ TEST_F(HistoryTest, TheNextLateOneOfAStreamFindsACheckpointRightBeforeIt) {
     if (i % 10 != 7 || i < 60) continue;
     again_ = 0;
     arrive(measurement(0.01 * i - 0.505, 1));
-    if (i > 60) EXPECT_LE(again_, 61) << "51 came after it, 9 between it and the late one before it";
+    if (i == 67) continue;  // the first finds none
+    EXPECT_LE(again_, 61) << "51 came after it, 9 between it and the late one before it";
   }
 }
 

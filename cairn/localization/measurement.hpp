@@ -11,6 +11,7 @@ struct Measurement {
   Event event;
   std::uint64_t number = 0;  ///< of the event, counted from 1 by arrival
   bool deferred = false;     ///< it had to wait for computing time
+  bool came_late = false;    ///< the belief had passed its stamp when it came
 };
 
 /// Where a measurement belongs: the order in which measurements enter the belief, however they arrive.

@@ -80,7 +80,7 @@ void Scheduler::admit_fairly(std::span<Candidate> waiting) {
   Plan plan{credit_s_};
   double until_s = std::numeric_limits<double>::infinity();
   while (plan.credit_s > 0.0) {
-    Candidate* chosen = fairest(waiting);
+    Candidate* chosen = fairest(waiting, plan);
     if (chosen == nullptr || streams_[chosen->stream].planned_s > until_s) return;
     Stream& stream = streams_[chosen->stream];
     double price = price_s(*chosen, plan);
@@ -98,10 +98,10 @@ void Scheduler::admit_fairly(std::span<Candidate> waiting) {
 }
 
 // The newest measurement of the stream with the least virtual time; of equals the lower stream.
-Scheduler::Candidate* Scheduler::fairest(std::span<Candidate> waiting) {
+Scheduler::Candidate* Scheduler::fairest(std::span<Candidate> waiting, const Plan& plan) {
   Candidate* best = nullptr;
   for (Candidate& candidate : waiting) {
-    if (candidate.admitted || streams_[candidate.stream].saving || !may_be_redone(candidate)) continue;
+    if (candidate.admitted || streams_[candidate.stream].saving || !makes_sense(candidate, plan)) continue;
     const double planned_s = streams_[candidate.stream].planned_s;
     const double best_s = best != nullptr ? streams_[best->stream].planned_s : planned_s;
     const bool fairer =
@@ -111,11 +111,14 @@ Scheduler::Candidate* Scheduler::fairest(std::span<Candidate> waiting) {
   return best;
 }
 
+bool Scheduler::plenty() const { return credit_s_ >= kPlenty * options_.compute_share; }
+
 // All late ones of a stream go back together, for the earliest of them, where they do not ask for too much.
 Scheduler::Together Scheduler::all_late(StreamId stream, std::span<Candidate> waiting) const {
   Together late;
   for (Candidate& candidate : waiting) {
-    if (candidate.stream != stream || candidate.admitted || candidate.redo_s == 0.0) continue;
+    if (candidate.stream != stream || candidate.admitted || candidate.rides || candidate.redo_s == 0.0)
+      continue;
     if (late.first == nullptr) {
       late.first = &candidate;
       late.price_s = candidate.redo_s;
@@ -126,10 +129,11 @@ Scheduler::Together Scheduler::all_late(StreamId stream, std::span<Candidate> wa
   return late;
 }
 
-bool Scheduler::may_be_redone(const Candidate& candidate) const {
-  const double redo_s = candidate.redos * streams_[candidate.stream].cost_s;
-  const bool plenty = credit_s_ >= kPlenty * options_.compute_share;
-  return plenty || redo_s <= std::max(redo_credit_s_, 0.0) ||
+bool Scheduler::makes_sense(const Candidate& candidate, const Plan& plan) const {
+  const double cost_s = streams_[candidate.stream].cost_s;
+  if (candidate.rides && candidate.redo_s - plan.redo_s > cost_s && !plenty()) return false;
+  const double redo_s = candidate.redos * cost_s;
+  return plenty() || redo_s <= std::max(redo_credit_s_, 0.0) ||
          redo_credit_s_ >= kRedoShare * options_.compute_share;
 }
 
@@ -145,7 +149,7 @@ void Scheduler::serve(Candidate& candidate, Plan& plan) {
   stream.planned_s += price * stream.share.nice;
   plan.credit_s -= price;
   plan.redo_s = std::max(plan.redo_s, candidate.redo_s);
-  redo_credit_s_ -= candidate.redos * stream.cost_s;
+  if (!plenty()) redo_credit_s_ -= candidate.redos * stream.cost_s;
 }
 
 void Scheduler::charge(StreamId id, Duration cost) {

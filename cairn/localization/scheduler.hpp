@@ -45,6 +45,7 @@ class Scheduler {
     bool admitted = false;
     double redo_s = 0.0;  ///< computing time of all that has to be done again if this is put in
     double redos = 0.0;   ///< how often it is itself expected to be done again (RewindForecast)
+    bool rides = false;   ///< the belief will go back for others anyhow: it need not for this one
   };
   /// What a stream may want to differ in.
   struct Share {
@@ -57,7 +58,8 @@ class Scheduler {
   /// Time went on to `now` (arrival); a step back earns nothing.
   void advance(Time now);
 
-  /// Marks what may be used now. @param waiting in the order of the stamps, all at first not admitted
+  /// Marks what may be used now. What rides is not put in where that costs more than itself again. @param
+  /// waiting in the order of the stamps, all at first not admitted
   void admit(std::span<Candidate> waiting);
 
   /// An update of `stream` had this cost.
@@ -84,11 +86,11 @@ class Scheduler {
     double planned_s = 0.0;  ///< virtual time if what was admitted costs what is expected
     bool saving = false;     ///< the credit does not cover what it wants next
   };
+
   struct Plan {
     double credit_s = 0.0;
     double redo_s = 0.0;  ///< of the earliest measurement that was admitted
   };
-
   struct Together {
     Candidate* first = nullptr;
     double price_s = 0.0;
@@ -97,9 +99,10 @@ class Scheduler {
   void wake(std::span<const Candidate> waiting);
   void admit_oldest(std::span<Candidate> waiting);
   void admit_fairly(std::span<Candidate> waiting);
-  Candidate* fairest(std::span<Candidate> waiting);
+  Candidate* fairest(std::span<Candidate> waiting, const Plan& plan);
   Together all_late(StreamId stream, std::span<Candidate> waiting) const;
-  bool may_be_redone(const Candidate& candidate) const;
+  bool plenty() const;
+  bool makes_sense(const Candidate& candidate, const Plan& plan) const;
   double price_s(const Candidate& candidate, const Plan& plan) const;
   void serve(Candidate& candidate, Plan& plan);
   void pay(StreamId stream, double cost_s);

@@ -142,7 +142,6 @@ TEST(Scheduler, LateOnesGoBackTogether) {
   Scheduler scheduler(options("cfs", 0.1), std::vector<Scheduler::Share>(1));
   scheduler.charge(0, milliseconds(10));
   scheduler.charge(0, milliseconds(50));
-  scheduler.charge_redo(0, milliseconds(0));
   const double cost_s = 0.018;  // 0.8 * 10 + 0.2 * 50 ms; 40 ms are left
   Candidates together = late({0.012, 0.004});
   scheduler.admit(together);
@@ -160,6 +159,25 @@ TEST(Scheduler, WhereAllLateOnesAskForTooMuchTheNewestGoes) {
   scheduler.admit(candidates);
   EXPECT_FALSE(candidates[0].admitted);
   EXPECT_TRUE(candidates[1].admitted);
+}
+
+TEST(Scheduler, WhatRidesIsOnlyPutInWhereTheBeliefGoesBackAnyhow) {
+  Scheduler scheduler(options("cfs", 0.1), std::vector<Scheduler::Share>(2));
+  scheduler.charge(0, milliseconds(10));
+  scheduler.charge(1, milliseconds(50));  // 40 ms are left
+  Candidates alone{{0, false, 0.02, 0.0, true}};
+  scheduler.admit(alone);
+  EXPECT_FALSE(alone[0].admitted) << "doing 20 ms again for one of 10";
+  Candidates cheap{{0, false, 0.005, 0.0, true}};
+  scheduler.admit(cheap);
+  EXPECT_TRUE(cheap[0].admitted);
+  Scheduler other(options("cfs", 0.1), std::vector<Scheduler::Share>(2));
+  other.charge(0, milliseconds(10));
+  other.charge(1, milliseconds(5));
+  other.charge_redo(0, milliseconds(40));  // 45 ms are left
+  Candidates with_another{{1, false, 0.022, 0.0, false}, {0, false, 0.02, 0.0, true}};
+  other.admit(with_another);
+  EXPECT_TRUE(with_another[0].admitted && with_another[1].admitted) << "5 + 22 + 10";
 }
 
 TEST(Scheduler, WhatIsDoneAgainIsPaidByWhoCameLate) {
