@@ -9,7 +9,9 @@ namespace {
 
 constexpr double kCostMemory = 0.8;
 constexpr double kRedoShare = 0.5;  // of the computing time, for what has to be done again
-constexpr double kPlenty = 0.5;     // of the largest credit: then computing time is not short
+constexpr double kOfRedoCredit =
+    0.25;                        // the most that one update may take of it: the dear go where it is little
+constexpr double kPlenty = 0.5;  // of the largest credit: then computing time is not short
 constexpr Duration kStampTolerance = std::chrono::milliseconds(1);
 
 }  // namespace
@@ -133,7 +135,7 @@ bool Scheduler::makes_sense(const Candidate& candidate, const Plan& plan) const 
   const double cost_s = streams_[candidate.stream].cost_s;
   if (candidate.rides && candidate.redo_s - plan.redo_s > cost_s && !plenty()) return false;
   const double redo_s = candidate.redos * cost_s;
-  return plenty() || redo_s <= std::max(redo_credit_s_, 0.0) ||
+  return plenty() || redo_s <= kOfRedoCredit * std::max(redo_credit_s_, 0.0) ||
          redo_credit_s_ >= kRedoShare * options_.compute_share;
 }
 
