@@ -115,19 +115,19 @@ Scheduler::Candidate* Scheduler::fairest(std::span<Candidate> waiting, const Pla
 
 bool Scheduler::plenty() const { return credit_s_ >= kPlenty * options_.compute_share; }
 
-// All late ones of a stream go back together, for the earliest of them, where they do not ask for too much.
+// The late ones of a stream go back together, for the earliest that does not ask for too much.
 Scheduler::Together Scheduler::all_late(StreamId stream, std::span<Candidate> waiting) const {
   Together late;
-  for (Candidate& candidate : waiting) {
+  double updates_s = 0.0;
+  for (std::size_t i = waiting.size(); i-- > 0;) {
+    Candidate& candidate = waiting[i];
     if (candidate.stream != stream || candidate.admitted || candidate.rides || candidate.redo_s == 0.0)
       continue;
-    if (late.first == nullptr) {
-      late.first = &candidate;
-      late.price_s = candidate.redo_s;
-    }
-    late.price_s += streams_[stream].cost_s;
+    updates_s += streams_[stream].cost_s;
+    const double price_s = candidate.redo_s + updates_s;
+    if (late.first != nullptr && price_s > kRedoShare * options_.compute_share) break;
+    late = {&candidate, price_s};
   }
-  if (late.price_s > kRedoShare * options_.compute_share) late.first = nullptr;
   return late;
 }
 
