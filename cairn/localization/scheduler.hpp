@@ -34,9 +34,10 @@ struct SchedulerOptions {
 /// Under cfs an update has to be paid for before it is made: a dear one must not put the others off until its
 /// debt is paid. While its stream saves up for it, the others go on as far as if it had been made. The price
 /// of a measurement that comes late is that of all that has to be done again for it, but those of a stream go
-/// back together, for the price of the earliest that asks for no more than half of the largest credit. What is used before late data of its time has come will be done again with that: such work may take
-/// half of the computing time, lest the dear models are done over and over; what goes beyond waits until it
-/// is older than the late data, and is then used once.
+/// back together, for the price of the earliest that asks for no more than half of the largest credit. What
+/// is used before late data of its time has come will be done again with that: such work may take half of the
+/// computing time, lest the dear models are done over and over; what goes beyond waits until it is older than
+/// the late data, and is then used once.
 class Scheduler {
  public:
   struct Candidate {
