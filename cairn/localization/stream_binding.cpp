@@ -1,6 +1,7 @@
 #include "cairn/localization/stream_binding.hpp"
 
 #include "cairn/core/errors.hpp"
+#include "cairn/models/derived_maps.hpp"
 #include "cairn/models/search/one_shot.hpp"
 
 #include <algorithm>
@@ -75,14 +76,16 @@ class LaserLocator {
   mutable std::unique_ptr<const PoseSearch> search_;
 };
 
-// A laser scanner: one sensor model at two widths, and a search over the whole map.
+// A laser scanner: one sensor model at two widths, what takes dynamic obstacles from its scans, and a search
+// over the whole map.
 class LaserStream final : public StreamModel {
  public:
   LaserStream(std::shared_ptr<const LaserModel> fine, std::shared_ptr<const LaserModel> coarse,
-              std::unique_ptr<const LaserLocator> locator, const BeamLimits& limits, int max_beams,
-              double cost)
+              std::unique_ptr<const BeamSkipping> skipping, std::unique_ptr<const LaserLocator> locator,
+              const BeamLimits& limits, int max_beams, double cost)
       : fine_(std::move(fine)),
         coarse_(std::move(coarse)),
+        skipping_(std::move(skipping)),
         locator_(std::move(locator)),
         limits_(limits),
         max_beams_(max_beams),
@@ -93,6 +96,12 @@ class LaserStream final : public StreamModel {
   }
   bool informs(const Event::Payload& z) const override {
     return fine_->reads_no_returns() || !select_beams(scan_of(z), limits_, 1).empty();
+  }
+  // Over several places no beam is expected anywhere: they all count.
+  BoundUpdate<Pose2> bind_given(const Event::Payload& z, bool compact,
+                                const BeliefSample& belief) const override {
+    if (!skipping_ || !compact) return bind(z, compact);
+    return fine_->bind(skipping_->expected_part(scan_of(z), belief(kSkippingSample)));
   }
   double explained_share(const Event::Payload& z, const Pose2& T_map_base) const override {
     return fine_->explained_share(scan_of(z), T_map_base);
@@ -110,9 +119,12 @@ class LaserStream final : public StreamModel {
     return *std::get<std::shared_ptr<const LaserScan>>(z);
   }
 
+  static constexpr std::size_t kSkippingSample = 100;  // shares to 5 %
+
   std::shared_ptr<const LaserModel> fine_;
   std::shared_ptr<const LaserModel> coarse_;
-  std::unique_ptr<const LaserLocator> locator_;  ///< null: the search is switched off
+  std::unique_ptr<const BeamSkipping> skipping_;  ///< null: all beams count
+  std::unique_ptr<const LaserLocator> locator_;   ///< null: the search is switched off
   BeamLimits limits_;
   int max_beams_;
   double cost_;
@@ -135,6 +147,12 @@ std::unique_ptr<const StreamModel> bind_laser(const LocalizerOptions& options,
   std::unique_ptr<const LaserLocator> locator;
   if (options.global.most_poses > 0)
     locator = std::make_unique<const LaserLocator>(map.grid(), options, T_base_sensor, laser.limits);
+  std::unique_ptr<const BeamSkipping> skipping;
+  if (const BeamSkippingOptions& skip = options.laser.beam_skip; skip.use) {
+    const double reach_m = std::max(skip.distance_m, options.laser.likelihood_field.max_distance_m);
+    skipping = std::make_unique<const BeamSkipping>(distance_field_of(map, reach_m), T_base_sensor,
+                                                    laser.limits, skip);
+  }
   auto model = make_laser_model(name, {map, T_base_sensor, laser.limits, fine});
   if (options.recipe == "cgr" && !model->bind(LaserScan{}).gradient) {
     throw ConfigurationError("recipe", "cgr needs the gradient of a sensor model, '" + name + "' has none",
@@ -142,7 +160,8 @@ std::unique_ptr<const StreamModel> bind_laser(const LocalizerOptions& options,
   }
   return std::make_unique<const LaserStream>(
       std::move(model), make_laser_model(name, {map, T_base_sensor, laser.limits, coarse}),
-      std::move(locator), laser.limits, options.laser.likelihood_field.max_beams, laser.cost);
+      std::move(skipping), std::move(locator), laser.limits, options.laser.likelihood_field.max_beams,
+      laser.cost);
 }
 
 // How a laser stream is to be used; nullopt: not at all.

@@ -6,6 +6,7 @@
 #include "cairn/models/search/one_shot.hpp"
 #include "cairn/sensing/event.hpp"
 
+#include <functional>
 #include <vector>
 
 namespace cairn {
@@ -19,6 +20,15 @@ class StreamModel {
   /// The measurement as a function of poses T_map_base alone. @param compact false while the belief is spread
   /// over several places: the likelihood has then to be as wide as the gaps between the particles
   virtual BoundUpdate<Pose2> bind(const Event::Payload& z, bool compact) const = 0;
+
+  /// Draws up to so many poses from the belief.
+  using BeliefSample = std::function<std::vector<Pose2>(std::size_t at_most)>;
+  /// Likewise as a belief reads it that can be drawn from: without what fits nowhere in it, for example. By
+  /// default it is read in the same way whatever is believed.
+  virtual BoundUpdate<Pose2> bind_given(const Event::Payload& z, bool compact,
+                                        const BeliefSample& /*belief*/) const {
+    return bind(z, compact);
+  }
 
   /// False if the measurement is as likely in every pose: a scan of an open place, all beams without return,
   /// for a model that looks at end points.

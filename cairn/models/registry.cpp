@@ -1,14 +1,11 @@
 #include "cairn/models/registry.hpp"
 
 #include "cairn/core/errors.hpp"
-#include "cairn/maps/distance_field.hpp"
-#include "cairn/maps/ray_marching.hpp"
-#include "cairn/maps/wall_extraction.hpp"
+#include "cairn/models/derived_maps.hpp"
 #include "cairn/models/sensor/amcl_likelihood_field.hpp"
 #include "cairn/models/sensor/v_amcl.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace cairn {
 namespace {
@@ -21,72 +18,39 @@ struct LaserModelEntry {
   std::shared_ptr<const LaserModel> (*make)(const LaserModelParts& parts);
 };
 
-std::shared_ptr<const DistanceField> distance_field(const MapSet& maps, double max_distance_m) {
-  return maps.derive<DistanceField>(std::to_string(max_distance_m), [&] {
-    return std::make_shared<const DistanceField>(*maps.grid(), max_distance_m);
-  });
-}
-
-// The map that was given, else the walls of the grid.
-std::shared_ptr<const NdtMap> ndt_map(const MapSet& maps, double cell_size_m) {
-  if (auto given = maps.find<NdtMap>()) return given;
-  return maps.derive<NdtMap>(std::to_string(cell_size_m), [&] {
-    return std::make_shared<const NdtMap>(ndt_from_grid(*maps.grid(), {.cell_size_m = cell_size_m}));
-  });
-}
-
 std::shared_ptr<const LaserModel> make_likelihood_field_prob(const LaserModelParts& parts) {
   const LikelihoodFieldOptions& options = parts.options.likelihood_field;
-  return std::make_shared<const LikelihoodField>(distance_field(parts.maps, options.max_distance_m),
+  return std::make_shared<const LikelihoodField>(distance_field_of(parts.maps, options.max_distance_m),
                                                  parts.T_base_sensor, parts.limits, options);
 }
 
 std::shared_ptr<const LaserModel> make_likelihood_field(const LaserModelParts& parts) {
   const LikelihoodFieldOptions& options = parts.options.likelihood_field;
-  return std::make_shared<const AmclLikelihoodField>(distance_field(parts.maps, options.max_distance_m),
+  return std::make_shared<const AmclLikelihoodField>(distance_field_of(parts.maps, options.max_distance_m),
                                                      parts.T_base_sensor, parts.limits, options);
 }
 
-// Nothing within reach of the scanner or inside the map is further away than this.
-double longest_ray_m(const GridGeometry& grid, const BeamLimits& limits) {
-  return std::min(limits.max_range_m, std::hypot(grid.width, grid.height) * grid.resolution_m);
-}
-
 std::shared_ptr<const LaserModel> make_beam(const LaserModelParts& parts) {
-  const auto grid = parts.maps.grid();
-  const double longest_m = longest_ray_m(grid->geometry(), parts.limits);
-  const auto marcher = parts.maps.derive<RayMarcher>(
-      std::to_string(longest_m), [&] { return std::make_shared<const RayMarcher>(*grid, longest_m); });
-  return std::make_shared<const BeamModel>(marcher, parts.T_base_sensor, parts.limits, parts.options.beam);
+  return std::make_shared<const BeamModel>(ray_marcher_of(parts.maps, parts.limits.max_range_m),
+                                           parts.T_base_sensor, parts.limits, parts.options.beam);
 }
 
 template <NdtKind Kind>
 std::shared_ptr<const LaserModel> make_ndt_model(const LaserModelParts& parts) {
   const NdtModelOptions& options = parts.options.ndt;
-  return std::make_shared<const NdtModel>(ndt_map(parts.maps, options.cell_size_m), Kind, parts.T_base_sensor,
-                                          parts.limits, options);
-}
-
-// The vector map that was given, or the straight walls of the grid.
-std::shared_ptr<const VectorMap> vector_map(const MapSet& maps) {
-  if (auto given = maps.find<VectorMap>()) return given;
-  return maps.derive<VectorMap>(
-      "grid", [&] { return std::make_shared<const VectorMap>(extract_walls(*maps.grid())); });
+  return std::make_shared<const NdtModel>(ndt_map_of(parts.maps, options.cell_size_m), Kind,
+                                          parts.T_base_sensor, parts.limits, options);
 }
 
 std::shared_ptr<const LaserModel> make_vector_laser(const LaserModelParts& parts) {
-  const auto walls = parts.maps.derive<WallGrid>(
-      "laser", [&] { return std::make_shared<const WallGrid>(vector_map(parts.maps), kSeenByLaser); });
-  return std::make_shared<const VectorLaser>(walls, parts.T_base_sensor, parts.limits,
+  return std::make_shared<const VectorLaser>(wall_grid_of(parts.maps), parts.T_base_sensor, parts.limits,
                                              parts.options.vector_laser);
 }
 
 std::shared_ptr<const LaserModel> make_v_amcl(const LaserModelParts& parts) {
   const LikelihoodFieldOptions& options = parts.options.likelihood_field;
-  const auto walls = parts.maps.derive<WallDistance>(std::to_string(options.max_distance_m), [&] {
-    return std::make_shared<const WallDistance>(vector_map(parts.maps), options.max_distance_m, kSeenByLaser);
-  });
-  return std::make_shared<const VectorAmcl>(walls, parts.T_base_sensor, parts.limits, options);
+  return std::make_shared<const VectorAmcl>(wall_distance_of(parts.maps, options.max_distance_m),
+                                            parts.T_base_sensor, parts.limits, options);
 }
 
 // The one table of names: a new sensor model of laser scans is one line here.
@@ -112,6 +76,8 @@ void LaserModelOptions::visit(OptionVisitor& v) {
             [this](OptionVisitor& inner) { ndt.visit(inner); });
   v.section({"vector_laser", "model vector_laser: distance to the wall that is seen in the beam's direction"},
             [this](OptionVisitor& inner) { vector_laser.visit(inner); });
+  v.section({"beam_skip", "every model: leave out the beams that fit the map nowhere in the belief"},
+            [this](OptionVisitor& inner) { beam_skip.visit(inner); });
 }
 
 void LaserModelOptions::validate() const {

@@ -4,6 +4,7 @@
 #include "cairn/maps/map_set.hpp"
 #include "cairn/models/sensor/beam_model.hpp"
 #include "cairn/models/sensor/beam_selection.hpp"
+#include "cairn/models/sensor/beam_skipping.hpp"
 #include "cairn/models/sensor/laser_model.hpp"
 #include "cairn/models/sensor/likelihood_field.hpp"
 #include "cairn/models/sensor/ndt_model.hpp"
@@ -22,6 +23,7 @@ struct LaserModelOptions {
   BeamModelOptions beam;
   NdtModelOptions ndt;  ///< ndt and ondt
   VectorLaserOptions vector_laser;
+  BeamSkippingOptions beam_skip;  ///< every model, while the belief is compact
 
   void visit(OptionVisitor& visitor);
   /// @throws ConfigurationError for values that do not fit each other
