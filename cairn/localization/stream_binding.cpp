@@ -156,7 +156,7 @@ std::unique_ptr<const StreamModel> bind_laser(const LocalizerOptions& options,
   auto model = make_laser_model(name, {map, T_base_sensor, laser.limits, fine});
   if (options.recipe == "cgr" && !model->bind(LaserScan{}).gradient) {
     throw ConfigurationError("recipe", "cgr needs the gradient of a sensor model, '" + name + "' has none",
-                             "use laser.model=vector_laser or v_amcl");
+                             "use laser.model=likelihood_field_prob, v_amcl, vector_laser, ndt or ondt");
   }
   return std::make_unique<const LaserStream>(
       std::move(model), make_laser_model(name, {map, T_base_sensor, laser.limits, coarse}),

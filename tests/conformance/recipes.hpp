@@ -44,11 +44,13 @@ inline std::vector<RecipeCase> recipes() {
   }
   for (const std::string recipe : {"amcl", "srl", "kld_srl", "csrl", "ckld_srl", "ckld_mcl"})
     cases.push_back({recipe, [recipe](LocalizerOptions& o) { o.recipe = recipe; }});
-  cases.push_back({"cgr", [](LocalizerOptions& o) {
-                     o.recipe = "cgr";
-                     o.laser.model = "v_amcl";
-                     o.cgr.particles = 200;  // with 20 the means of two frames differ by chance
-                   }});
+  for (const std::string model : {"likelihood_field_prob", "v_amcl"}) {
+    cases.push_back({"cgr_" + model, [model](LocalizerOptions& o) {
+                       o.recipe = "cgr";
+                       o.laser.model = model;
+                       o.cgr.particles = 200;  // with 20 the means of two frames differ by chance
+                     }});
+  }
   return cases;
 }
 

@@ -201,11 +201,12 @@ class Configuration(CliTest):
         self.assertEqual(result.returncode, OK, result.stderr)
         for line in ["alpha1: 0.15", "max_particles: 2500", "min_particles: 400", "max_beams: 90", "sigma_hit_m: 0.21",
                      "max_distance_m: 1.75", "min_translation_m: 0.26", "min_rotation_rad: 0.22", "z_hit: 0.51",
-                     "z_rand: 0.49", "epsilon: 0.055", "alpha_slow: 0.002", "alpha_fast: 0.09"]:
+                     "z_rand: 0.49", "epsilon: 0.055", "alpha_slow: 0.002", "alpha_fast: 0.09", "threshold: 0.3",
+                     "error_threshold: 0.9"]:
             self.assertIn(line, result.stdout)
         self.assertIn("AMCL parameter without counterpart", result.stderr)
         self.assertEqual(self.localize("--config", name).returncode, OK)
-        self.assertEqual(self.metrics()["warnings"]["AMCL parameter without counterpart"], 18)
+        self.assertEqual(self.metrics()["warnings"]["AMCL parameter without counterpart"], 14)
 
 
 class Files(CliTest):

@@ -70,8 +70,8 @@ TEST(BeamSkipping, LeavesOutWhatStandsInFreeSpace) {
     const Point2 cell = field.geometry().to_cells(kTruth * kTBaseSensor * end);
     const double distance =
         field.distance_m(field.geometry().index(static_cast<int>(cell.x), static_cast<int>(cell.y)));
-    if (distance > 0.7) EXPECT_TRUE(std::isnan(expected.ranges_m[i])) << i;
-    if (distance < 0.3) EXPECT_EQ(expected.ranges_m[i], scan.ranges_m[i]) << i;
+    if (distance > 0.3 && distance < 0.7) continue;  // in some states near, in some not
+    EXPECT_EQ(std::isnan(expected.ranges_m[i]), distance > 0.7) << i;
   }
   EXPECT_GT(left_out(expected), 10u);
 }
@@ -81,7 +81,8 @@ TEST(BeamSkipping, CountsAllBeamsWhereTheBeliefItselfIsWrong) {
   std::fill(scan.ranges_m.begin(), scan.ranges_m.end(), 0.8f);  // nothing of the map is so near
   const auto wrong = belief_about({5.0, 2.5, 2.5});
   EXPECT_EQ(left_out(skipping({.distance_m = 0.1}).expected_part(scan, wrong)), 0u);
-  EXPECT_EQ(left_out(skipping({.distance_m = 0.1, .error_threshold = 1.0}).expected_part(scan, wrong)), 0u);
+  EXPECT_GT(left_out(skipping({.distance_m = 0.1, .error_threshold = 0.95}).expected_part(scan, wrong)),
+            150u);
 }
 
 TEST(BeamSkipping, LeavesTheScanAsItIsWithoutABelief) {

@@ -14,27 +14,31 @@ namespace {
 
 constexpr double kRests_m = 1e-4, kRests_rad = 1e-5;
 
-// Distances in metres at cells of the grid; the largest one off it.
-double distance_at(const DistanceField& field, double column, double row) {
-  const GridGeometry& grid = field.geometry();
-  if (!(column >= 0.0 && column < grid.width && row >= 0.0 && row < grid.height))
-    return field.max_distance_m();
-  return field.distance_m(grid.index(static_cast<int>(column), static_cast<int>(row)));
-}
-
+// Bilinear between the centres of the cells. Beyond the outermost centres: the value at the nearest point
+// between them, and the way to there. That is exact where the border is a wall, and never too small.
 std::optional<WallOffset> interpolated(const DistanceField& field, const Point2& p_map) {
   const GridGeometry& grid = field.geometry();
+  if (!std::isfinite(p_map.x) || !std::isfinite(p_map.y)) return std::nullopt;
   const Point2 p = grid.to_cells(p_map);
-  const double left = std::floor(p.x - 0.5), below = std::floor(p.y - 0.5);
-  if (!(left >= -1.0 && left < grid.width && below >= -1.0 && below < grid.height)) return std::nullopt;
-  const double u = p.x - 0.5 - left, v = p.y - 0.5 - below;
-  const double d00 = distance_at(field, left, below), d10 = distance_at(field, left + 1.0, below);
-  const double d01 = distance_at(field, left, below + 1.0), d11 = distance_at(field, left + 1.0, below + 1.0);
+  const Point2 inside{std::clamp(p.x, 0.5, grid.width - 0.5), std::clamp(p.y, 0.5, grid.height - 0.5)};
+  const int left = std::clamp(static_cast<int>(inside.x - 0.5), 0, std::max(0, grid.width - 2));
+  const int below = std::clamp(static_cast<int>(inside.y - 0.5), 0, std::max(0, grid.height - 2));
+  const int right = std::min(left + 1, grid.width - 1), above = std::min(below + 1, grid.height - 1);
+  const double u = inside.x - 0.5 - left, v = inside.y - 0.5 - below;
+  const double d00 = field.distance_m(grid.index(left, below));
+  const double d10 = field.distance_m(grid.index(right, below));
+  const double d01 = field.distance_m(grid.index(left, above));
+  const double d11 = field.distance_m(grid.index(right, above));
   const double lower = d00 + u * (d10 - d00), upper = d01 + u * (d11 - d01);
-  const double du = ((1.0 - v) * (d10 - d00) + v * (d11 - d01)) / grid.resolution_m;
-  const double dv = (upper - lower) / grid.resolution_m;
+  const Point2 outside{(p.x - inside.x) * grid.resolution_m, (p.y - inside.y) * grid.resolution_m};
+  const double way = std::hypot(outside.x, outside.y);
+  Point2 slope{((1.0 - v) * (d10 - d00) + v * (d11 - d01)) / grid.resolution_m,
+               (upper - lower) / grid.resolution_m};
+  if (outside.x != 0.0) slope.x = outside.x / way;
+  if (outside.y != 0.0) slope.y = outside.y / way;
   const double c = std::cos(grid.T_map_grid.theta), s = std::sin(grid.T_map_grid.theta);
-  return WallOffset{lower + v * (upper - lower), {c * du - s * dv, s * du + c * dv}};
+  return WallOffset{lower + v * (upper - lower) + way,
+                    {c * slope.x - s * slope.y, s * slope.x + c * slope.y}};
 }
 
 struct Row {

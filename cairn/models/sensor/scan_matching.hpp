@@ -31,7 +31,8 @@ struct WallOffset {
 /// nullopt where there is no wall within reach, and for what is not finite.
 using DistanceToWall = std::function<std::optional<WallOffset>(const Point2& p_map)>;
 
-/// Of a grid's walls: bilinear between the centres of the cells. The slope is that of the interpolation.
+/// Of a grid's walls: bilinear between the centres of the cells, going on beyond the outermost ones. The
+/// slope is that of the interpolation.
 DistanceToWall distance_to_cells(std::shared_ptr<const DistanceField> field);
 /// Of the walls of a vector map: exact.
 DistanceToWall distance_to_walls(std::shared_ptr<const WallDistance> walls);
