@@ -82,9 +82,9 @@ PoseBelief::Application PoseBelief::update(const Event& event, const OdometryTra
   } else {
     filter_->predict(state_.started ? odometry.control(state_.updated_at, event.stamp) : PoseControl{});
     if (informs) {
-      BoundUpdate<Pose2> z =
-          model.bind_given(event.payload, filter_->compact(),
-                           [this](std::size_t at_most) { return filter_->sample(at_most); });
+      BoundUpdate<Pose2> z = model.bind_given(event.payload, filter_->compact(), [this](std::size_t at_most) {
+        return filter_->sample(at_most);
+      });
       z.stream = event.stream;
       filter_->correct(z);
     }
