@@ -1,7 +1,6 @@
 #include "bench_world.hpp"
 #include "cairn/bayes/particle_filter.hpp"
 #include "cairn/bayes/pose_kernel.hpp"
-#include "cairn/core/batch_math.hpp"
 #include "cairn/localization/recipes.hpp"
 #include "cairn/models/motion/differential_drive.hpp"
 #include "cairn/models/sensor/likelihood_field.hpp"
@@ -59,12 +58,10 @@ void step(benchmark::State& state, const ParticleFilterOptions& options,
   const std::vector<Pose2> start = tracking_particles(count);
   filter.initialize([&](const RandomStream&, std::uint32_t i) { return start[i]; });
   const auto model = laser_model({});
-  std::vector<double> weights(count);
   Pose2 control = kControl;
   for (auto _ : state) {
     filter.update(control, model->bind(bench_world().scan));
-    exp_all(filter.particles().log_weights, 0.0, weights);
-    benchmark::DoNotOptimize(weighted_moments(filter.particles().states, weights));
+    benchmark::DoNotOptimize(weighted_moments(filter.particles().states, filter.particles().weights));
     control = inverse(control);
   }
   state.SetItemsProcessed(state.iterations() * state.range(0));

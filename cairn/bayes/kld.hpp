@@ -29,6 +29,8 @@ class PoseBins {
  public:
   explicit PoseBins(const KldOptions& options);
   std::uint64_t key(const Pose2& pose) const;
+  /// Bins of heading that fill the circle.
+  std::int64_t heading_bins() const { return heading_bins_; }
 
  private:
   double cells_per_m_;

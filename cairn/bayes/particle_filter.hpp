@@ -9,6 +9,7 @@
 #include "cairn/bayes/sample_size.hpp"
 #include "cairn/bayes/tempering.hpp"
 #include "cairn/bayes/triggers/ess_ratio.hpp"
+#include "cairn/bayes/weights.hpp"
 #include "cairn/core/errors.hpp"
 #include "cairn/core/executor.hpp"
 #include "cairn/core/statistics.hpp"
@@ -147,6 +148,7 @@ class ParticleFilter {
     if (parts_.injection) inject(z);
   }
 
+  /// With their weights, as logs and as they are.
   const ParticleSet<State>& particles() const { return particles_; }
   /// Effective sample size after the last measurement, 1..N.
   double ess() const { return ess_; }
@@ -210,7 +212,7 @@ class ParticleFilter {
   // Fox 2003, table 1: draw ancestors and predict them until there are as many as the predicted spread asks
   // for. Each batch is one drawing over all ancestors.
   void resample_and_move(const Control& u, const Motion& motion) {
-    cumulative_weights(particles_.log_weights, cumulative_);
+    cumulative_sums(particles_.weights, cumulative_);
     const RandomStream random = stream(RandomPurpose::kResample);
     next_.clear();
     std::size_t wanted = parts_.size->begin();
@@ -247,7 +249,7 @@ class ParticleFilter {
 
   void refine(const BoundUpdate<State>& z) {
     parts_.refinement->refine(z, particles_, stream(RandomPurpose::kRefine), *executor_);
-    normalize_log_weights(particles_.log_weights);
+    normalize_weights(particles_.log_weights, particles_.weights);
   }
 
   void evaluate(const BoundUpdate<State>& z) {
@@ -273,8 +275,7 @@ class ParticleFilter {
         tempering_exponent(particles_.log_weights, log_likelihoods_, min_ess, share, cumulative_);
     for (std::size_t i = 0; i < particles_.size(); ++i)
       particles_.log_weights[i] += power * log_likelihoods_[i];
-    normalize_log_weights(particles_.log_weights);
-    ess_ = effective_sample_size(particles_.log_weights);
+    ess_ = normalize_weights(particles_.log_weights, particles_.weights);
     return power;
   }
 
@@ -298,7 +299,7 @@ class ParticleFilter {
 
   // A drawing within a correction: `drawing` tells them apart.
   void resample_between(std::uint32_t drawing, std::size_t count) {
-    cumulative_weights(particles_.log_weights, cumulative_);
+    cumulative_sums(particles_.weights, cumulative_);
     next_.clear();
     const auto first = drawing * static_cast<std::uint32_t>(particles_.size());
     draw_ancestors(count, {stream(RandomPurpose::kRegularize), drawing, first});
@@ -321,14 +322,14 @@ class ParticleFilter {
     std::swap(particles_.states, next_);
     set_uniform_weights();
     if (!parts_.resampling->weigh_drawn(particles_.log_weights)) return;
-    normalize_log_weights(particles_.log_weights);
-    ess_ = effective_sample_size(particles_.log_weights);
+    ess_ = normalize_weights(particles_.log_weights, particles_.weights);
     ess_of_generation_ = ess_;
   }
 
   void set_uniform_weights() {
     const auto n = static_cast<double>(particles_.size());
     particles_.log_weights.assign(particles_.size(), -std::log(n));
+    particles_.weights.assign(particles_.size(), 1.0 / n);
     ess_ = n;
     ess_of_generation_ = n;
   }

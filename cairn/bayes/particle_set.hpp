@@ -10,6 +10,8 @@ template <class State>
 struct ParticleSet {
   std::vector<State> states;
   std::vector<double> log_weights;
+  /// The exponentials of log_weights, where a filter keeps them (see ParticleFilter); else empty.
+  std::vector<double> weights = {};
 
   std::size_t size() const { return states.size(); }
 };

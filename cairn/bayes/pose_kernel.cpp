@@ -22,8 +22,11 @@ void PoseKernelOptions::visit(OptionVisitor& v) {
 }
 
 bool PoseKernel::fit(const ParticleSet<Pose2>& particles) {
-  weights_.resize(particles.size());
-  exp_all(particles.log_weights, 0.0, weights_);
+  weights_ = particles.weights;
+  if (weights_.size() != particles.size()) {
+    weights_.resize(particles.size());
+    exp_all(particles.log_weights, 0.0, weights_);
+  }
   const bool compact =
       fit_group(particles.states, weights_) || fit_heaviest_cluster(particles.states, weights_);
   if (!compact) sigma_ = {options_.wide_m, options_.wide_m, options_.wide_rad};

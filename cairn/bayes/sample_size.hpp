@@ -1,8 +1,8 @@
 #pragma once
 
 #include "cairn/bayes/filter_part.hpp"
-#include "cairn/bayes/key_set.hpp"
 #include "cairn/bayes/kld.hpp"
+#include "cairn/bayes/occupied_bins.hpp"
 #include "cairn/core/pose2.hpp"
 
 #include <algorithm>
@@ -44,7 +44,7 @@ class FixedSize final : public SampleSize<State> {
 class KldSize final : public SampleSize<Pose2> {
  public:
   KldSize(const KldOptions& options, std::size_t min_particles, std::size_t max_particles)
-      : options_(options), bins_(options), min_(min_particles), max_(max_particles) {}
+      : options_(options), min_(min_particles), max_(max_particles), occupied_(options) {}
 
   std::size_t begin() override {
     occupied_.clear();
@@ -52,7 +52,7 @@ class KldSize final : public SampleSize<Pose2> {
   }
 
   std::size_t wanted(std::span<const Pose2> newly_drawn) override {
-    for (const Pose2& pose : newly_drawn) occupied_.insert(bins_.key(pose));
+    occupied_.insert(newly_drawn);
     return std::clamp(kld_bound(occupied_.size(), options_), min_, max_);
   }
 
@@ -60,10 +60,9 @@ class KldSize final : public SampleSize<Pose2> {
 
  private:
   KldOptions options_;
-  PoseBins bins_;
   std::size_t min_;
   std::size_t max_;
-  KeySet occupied_;
+  OccupiedBins occupied_;
 };
 
 }  // namespace cairn

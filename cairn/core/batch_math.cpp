@@ -77,6 +77,28 @@ void sine_cosine_kernel(const double* angles, double* sine, double* cosine, std:
   std::copy_n(rest_cosine, count - i, cosine + i);
 }
 
+// Eight partial sums, whatever the lanes.
+double dot_kernel(const double* HWY_RESTRICT a, const double* HWY_RESTRICT b, std::size_t count) {
+  constexpr std::size_t kSums = 8, kLanes = hn::MaxLanes(Doubles()), kVectors = kSums / kLanes;
+  const Doubles d;
+  D sums[kVectors];
+  for (D& sum : sums) sum = hn::Zero(d);
+  std::size_t i = 0;
+  for (; i + kSums <= count; i += kSums) {
+    HWY_UNROLL(8)
+    for (std::size_t v = 0; v < kVectors; ++v) {
+      const std::size_t at = i + v * kLanes;
+      sums[v] = hn::Add(sums[v], hn::Mul(hn::LoadU(d, a + at), hn::LoadU(d, b + at)));
+    }
+  }
+  double parts[kSums];
+  for (std::size_t v = 0; v < kVectors; ++v) hn::StoreU(sums[v], d, parts + v * kLanes);
+  for (std::size_t k = 0; i < count; ++i, ++k) parts[k] += a[i] * b[i];
+  double sum = 0.0;
+  for (const double part : parts) sum += part;
+  return sum;
+}
+
 }  // namespace cairn::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -86,20 +108,7 @@ namespace {
 
 HWY_EXPORT(exp_kernel);
 HWY_EXPORT(sine_cosine_kernel);
-
-template <class Term>
-double sum_side_by_side(std::span<const double> values, const Term& term) {
-  constexpr std::size_t kSums = 8;
-  std::array<double, kSums> sums{};
-  std::size_t i = 0;
-  for (; i + kSums <= values.size(); i += kSums) {
-    for (std::size_t k = 0; k < kSums; ++k) sums[k] += term(values[i + k]);
-  }
-  for (std::size_t k = 0; i < values.size(); ++i, ++k) sums[k] += term(values[i]);
-  double sum = 0.0;
-  for (const double s : sums) sum += s;
-  return sum;
-}
+HWY_EXPORT(dot_kernel);
 
 }  // namespace
 
@@ -114,11 +123,23 @@ void sine_cosine_all(std::span<const double> angles, std::span<double> sine, std
 }
 
 double sum_of(std::span<const double> values) {
-  return sum_side_by_side(values, [](double v) { return v; });
+  constexpr std::size_t kSums = 8;
+  std::array<double, kSums> sums{};
+  std::size_t i = 0;
+  for (; i + kSums <= values.size(); i += kSums) {
+    for (std::size_t k = 0; k < kSums; ++k) sums[k] += values[i + k];
+  }
+  for (std::size_t k = 0; i < values.size(); ++i, ++k) sums[k] += values[i];
+  double sum = 0.0;
+  for (const double s : sums) sum += s;
+  return sum;
 }
 
-double sum_of_squares(std::span<const double> values) {
-  return sum_side_by_side(values, [](double v) { return v * v; });
+double sum_of_squares(std::span<const double> values) { return dot(values, values); }
+
+double dot(std::span<const double> a, std::span<const double> b) {
+  CAIRN_ASSERT(a.size() == b.size());
+  return HWY_DYNAMIC_DISPATCH(dot_kernel)(a.data(), b.data(), a.size());
 }
 
 }  // namespace cairn

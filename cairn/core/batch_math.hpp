@@ -20,4 +20,7 @@ double sum_of(std::span<const double> values);
 /// The sum of squares, likewise.
 double sum_of_squares(std::span<const double> values);
 
+/// The sum of a[i] * b[i], likewise. @pre equal sizes
+double dot(std::span<const double> a, std::span<const double> b);
+
 }  // namespace cairn

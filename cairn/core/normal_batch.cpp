@@ -8,6 +8,7 @@
 // clang-format off
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+#include "cairn/core/philox-inl.h"
 #include "cairn/core/simd_math-inl.h"
 // clang-format on
 
@@ -26,8 +27,6 @@ struct WordsOfItems {
 
 #if HWY_TARGET == HWY_SCALAR
 
-using Keys = PhiloxKey;
-
 // One item.
 HWY_INLINE WordsOfItems philox(const PhiloxCounter& first, const PhiloxKey& key, std::uint32_t item) {
   const auto words = philox4x32_10({first[0] + item, first[1], first[2], first[3]}, key);
@@ -37,61 +36,15 @@ HWY_INLINE WordsOfItems philox(const PhiloxCounter& first, const PhiloxKey& key,
 
 #else
 
-using Longs = hn::Repartition<std::uint64_t, Words>;
-using Q = hn::Vec<Longs>;
-
-// Four words of as many items as there are 64-bit lanes. Only the lower half of each lane counts: the
-// multiplication ignores what the shifts leave in the upper one.
-struct PhiloxState {
-  Q c0, c1, c2, c3;
-
-  HWY_INLINE void round(Q key0, Q key1) {
-    const Longs d;
-    const Words d32;
-    const auto product = [&](Q a, std::uint64_t factor) {
-      return hn::MulEven(hn::BitCast(d32, a), hn::BitCast(d32, hn::Set(d, factor)));
-    };
-    const Q first = product(c0, 0xD2511F53u), second = product(c2, 0xCD9E8D57u);
-    c0 = hn::Xor(hn::Xor(hn::ShiftRight<32>(second), c1), key0);
-    c2 = hn::Xor(hn::Xor(hn::ShiftRight<32>(first), c3), key1);
-    c1 = second;
-    c3 = first;
-  }
-};
-
-// The keys of all rounds, ready in every lane.
-struct Keys {
-  static constexpr int kRounds = 10;
-
-  HWY_INLINE explicit Keys(const PhiloxKey& key) {
-    for (int r = 0; r < kRounds; ++r) {
-      const auto step = static_cast<std::uint32_t>(r);
-      first[r] = hn::Set(Longs(), std::uint64_t{key[0] + step * 0x9E3779B9u});
-      second[r] = hn::Set(Longs(), std::uint64_t{key[1] + step * 0xBB67AE85u});
-    }
-  }
-
-  Q first[kRounds];
-  Q second[kRounds];
-};
-
-// Philox4x32-10 of consecutive items, one per lane: two halves side by side.
-HWY_INLINE WordsOfItems philox(const PhiloxCounter& first, const Keys& keys, std::uint32_t item) {
-  const Longs d;
+// One item per lane.
+HWY_INLINE WordsOfItems philox(const PhiloxCounter& first, const PhiloxKeys& keys, std::uint32_t item) {
   const Words d32;
-  const auto start = [&](std::uint64_t offset) {
-    return PhiloxState{hn::Iota(d, std::uint64_t{first[0]} + item + offset),
-                       hn::Set(d, std::uint64_t{first[1]}), hn::Set(d, std::uint64_t{first[2]}),
-                       hn::Set(d, std::uint64_t{first[3]})};
+  const PhiloxPair blocks(first, keys, item, hn::Iota(PhiloxLongs(), 0));
+  const auto join = [&](PhiloxState::Q l, PhiloxState::Q h) {
+    return hn::ConcatEven(d32, hn::BitCast(d32, h), hn::BitCast(d32, l));
   };
-  PhiloxState low = start(0), high = start(hn::Lanes(d));
-  HWY_UNROLL(10)
-  for (int r = 0; r < Keys::kRounds; ++r) {
-    low.round(keys.first[r], keys.second[r]);
-    high.round(keys.first[r], keys.second[r]);
-  }
-  const auto join = [&](Q l, Q h) { return hn::ConcatEven(d32, hn::BitCast(d32, h), hn::BitCast(d32, l)); };
-  return {join(low.c0, high.c0), join(low.c1, high.c1), join(low.c2, high.c2), join(low.c3, high.c3)};
+  const PhiloxState &l = blocks.low, &h = blocks.high;
+  return {join(l.c0, h.c0), join(l.c1, h.c1), join(l.c2, h.c2), join(l.c3, h.c3)};
 }
 
 #endif
@@ -155,7 +108,7 @@ HWY_INLINE void store_normal_pair(W first, W second, float* a, float* b) {
 // of operations side by side.
 void fill_normals(const PhiloxCounter& first, const PhiloxKey& key, std::size_t count, NormalBatch& batch) {
   const std::size_t lanes = hn::Lanes(Floats());
-  const Keys keys(key);
+  const PhiloxKeys keys(key);
   WordsOfItems words = philox(first, keys, 0);
   for (std::size_t i = 0; i < count; i += lanes) {
     const WordsOfItems next = philox(first, keys, static_cast<std::uint32_t>(i + lanes));

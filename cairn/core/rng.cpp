@@ -24,6 +24,14 @@ NormalPair box_muller(double u, double v) {
   return {radius * std::cos(kTwoPi * v), radius * std::sin(kTwoPi * v)};
 }
 
+// The radius from bits 10 to 29, the place within a quadrant from bits 0 to 9, the signs from bits 31 and 30.
+NormalPair box_muller(std::uint32_t word) {
+  const double radius = std::sqrt(-2.0 * std::log(((word >> 10 & 0xfffffu) + 0.5) * 0x1p-20));
+  const double angle = ((word & 0x3ffu) + 0.5) / 1024.0 * (kPi / 2.0);
+  const double first = radius * std::cos(angle), second = radius * std::sin(angle);
+  return {(word & 0x80000000u) != 0 ? -first : first, (word & 0x40000000u) != 0 ? -second : second};
+}
+
 }  // namespace
 
 PhiloxCounter philox4x32_10(PhiloxCounter counter, PhiloxKey key) {
@@ -55,6 +63,17 @@ std::array<double, 4> RandomStream::normal4(std::uint32_t item, std::uint16_t dr
   const NormalPair a = box_muller(u[0], u[1]);
   const NormalPair b = box_muller(u[2], u[3]);
   return {a.first, a.second, b.first, b.second};
+}
+
+std::array<double, 3> RandomStream::normal3(std::uint32_t item, std::uint16_t draw) const {
+  constexpr std::uint32_t kHalf = kNormal3Group / 2;
+  PhiloxCounter pairs = counter(item, draw), thirds = counter(item, static_cast<std::uint16_t>(draw + 1));
+  const std::uint32_t i = pairs[0], group = i / kNormal3Group, in_half = i % kHalf;
+  pairs[0] = i / 4;
+  thirds[0] = group * (kHalf / 4) + in_half / 4;
+  const NormalPair pair = box_muller(philox4x32_10(pairs, key())[i % 4]);
+  const NormalPair third = box_muller(philox4x32_10(thirds, key())[in_half % 4]);
+  return {pair.first, pair.second, i % kNormal3Group < kHalf ? third.first : third.second};
 }
 
 }  // namespace cairn

@@ -3,11 +3,13 @@
 #include "cairn/core/angle.hpp"
 #include "cairn/core/batch_math.hpp"
 #include "cairn/core/errors.hpp"
+#include "cairn/core/moment_sums.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace cairn {
 namespace {
@@ -54,26 +56,8 @@ double sum_of_exp(std::span<const double> values, double offset, double power) {
   return sum;
 }
 
-// Sum of the weighted squares of the deviations.
-Eigen::Matrix3d covariance_around(const Pose2& mean, std::span<const Pose2> poses,
-                                  std::span<const double> weights) {
-  double xx = 0.0, xy = 0.0, xt = 0.0, yy = 0.0, yt = 0.0, tt = 0.0;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const double dx = poses[i].x - mean.x, dy = poses[i].y - mean.y;
-    double dt = poses[i].theta - mean.theta;
-    if (!(dt >= -kPi && dt < kPi)) dt = normalize_angle(dt);
-    const double wx = weights[i] * dx, wy = weights[i] * dy;
-    xx += wx * dx;
-    xy += wx * dy;
-    xt += wx * dt;
-    yy += wy * dy;
-    yt += wy * dt;
-    tt += weights[i] * dt * dt;
-  }
-  Eigen::Matrix3d sum;
-  sum << xx, xy, xt, xy, yy, yt, xt, yt, tt;
-  return sum;
-}
+// Beyond, headings are brought into [-pi, pi) first.
+constexpr double kLargestHeading = 1e5;
 
 }  // namespace
 
@@ -96,28 +80,19 @@ double effective_sample_size(std::span<const double> normalized_log_weights) {
 }
 
 PoseMoments weighted_moments(std::span<const Pose2> poses, std::span<const double> weights) {
-  CAIRN_ASSERT(poses.size() == weights.size());
-  constexpr std::size_t kAtOnce = 256;
-  std::array<double, kAtOnce> heading, sine, cosine;
-  double total = 0.0, x = 0.0, y = 0.0, c = 0.0, s = 0.0;
-  for (std::size_t begin = 0; begin < poses.size(); begin += kAtOnce) {
-    const std::size_t count = std::min(kAtOnce, poses.size() - begin);
-    for (std::size_t i = 0; i < count; ++i) heading[i] = normalize_angle(poses[begin + i].theta);
-    sine_cosine_all(std::span(heading).first(count), std::span(sine).first(count),
-                    std::span(cosine).first(count));
-    for (std::size_t i = 0; i < count; ++i) {
-      const double w = weights[begin + i];
-      total += w;
-      x += w * poses[begin + i].x;
-      y += w * poses[begin + i].y;
-      c += w * cosine[i];
-      s += w * sine[i];
-    }
+  const FirstSums sums = first_sums(poses, weights);
+  if (sums.largest_heading > kLargestHeading) {
+    std::vector<Pose2> normalized(poses.begin(), poses.end());
+    for (Pose2& pose : normalized) pose.theta = normalize_angle(pose.theta);
+    return weighted_moments(normalized, weights);
   }
-  CAIRN_ASSERT(total > 0.0);
+  CAIRN_ASSERT(sums.weight > 0.0);
   PoseMoments moments;
-  moments.mean = {x / total, y / total, normalize_angle(std::atan2(s, c))};
-  moments.covariance = covariance_around(moments.mean, poses, weights) / total;
+  moments.mean = {sums.x / sums.weight, sums.y / sums.weight,
+                  normalize_angle(std::atan2(sums.sine, sums.cosine))};
+  const SecondSums s = second_sums(moments.mean, poses, weights);
+  moments.covariance << s.xx, s.xy, s.xt, s.xy, s.yy, s.yt, s.xt, s.yt, s.tt;
+  moments.covariance /= sums.weight;
   return moments;
 }
 

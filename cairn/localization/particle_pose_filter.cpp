@@ -19,9 +19,7 @@ void ParticlePoseFilter::predict(const PoseControl& control) {
 
 PoseSummary ParticlePoseFilter::summarize() const {
   const ParticleSet<Pose2>& particles = filter_.particles();
-  std::vector<double> weights(particles.size());
-  std::transform(particles.log_weights.begin(), particles.log_weights.end(), weights.begin(),
-                 [](double w) { return std::exp(w); });
+  std::vector<double> weights = particles.weights;
   const Clusters clusters = cluster_poses(particles.states, weights, {});
   if (!clusters.weight.empty()) {
     for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = clusters.label[i] == 0 ? weights[i] : 0.0;
@@ -41,7 +39,9 @@ std::vector<Pose2> ParticlePoseFilter::sample(std::size_t at_most) const {
   std::vector<Pose2> poses;
   if (count == 0) return poses;
   std::vector<std::uint32_t> chosen;
-  draw_systematic(cumulative_weights(particles.log_weights), count, 0.5, chosen);
+  std::vector<double> cumulative;
+  cumulative_sums(particles.weights, cumulative);
+  draw_systematic(cumulative, count, 0.5, chosen);
   for (const std::uint32_t i : chosen) poses.push_back(particles.states[i]);
   return poses;
 }

@@ -52,14 +52,27 @@ NoisyMove DifferentialDrive::noisy_move(const Pose2& T_before_after) const {
   return move;
 }
 
+namespace {
+
+template <class Noise>
+void sample_in_batches(const NoisyMove& move, std::span<Pose2> states, const RandomStream& random) {
+  Noise noise;
+  for (std::size_t begin = 0; begin < states.size(); begin += Noise::kCapacity) {
+    const std::size_t count = std::min(Noise::kCapacity, states.size() - begin);
+    noise.fill(random, static_cast<std::uint32_t>(begin), count);
+    apply(move, states.subspan(begin, count), noise);
+  }
+}
+
+}  // namespace
+
 void DifferentialDrive::propagate(const Pose2& T_before_after, std::span<Pose2> states,
                                   const RandomStream& random) const {
   const NoisyMove move = noisy_move(T_before_after);
-  NormalBatch noise;
-  for (std::size_t begin = 0; begin < states.size(); begin += NormalBatch::kCapacity) {
-    const std::size_t count = std::min(NormalBatch::kCapacity, states.size() - begin);
-    noise.fill(random, static_cast<std::uint32_t>(begin), count);
-    apply(move, states.subspan(begin, count), noise);
+  if (move.hides_single_precision()) {
+    sample_in_batches<Normal3Batch>(move, states, random);
+  } else {
+    sample_in_batches<NormalBatch>(move, states, random);
   }
 }
 

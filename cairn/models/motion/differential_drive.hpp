@@ -33,7 +33,8 @@ class DifferentialDrive final : public MotionModel<Pose2, Pose2> {
                  const RandomStream& random) const override;
 
   /// What a control means for every particle: `propagate` applies it with the numbers of
-  /// RandomStream::normal4, in single precision.
+  /// RandomStream::normal3 (turn 1, drive, turn 2) where the noise hides single precision, and with those of
+  /// normal4 elsewhere.
   NoisyMove noisy_move(const Pose2& T_before_after) const;
 
  private:

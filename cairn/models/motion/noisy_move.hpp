@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cairn/core/normal3_batch.hpp"
 #include "cairn/core/normal_batch.hpp"
 #include "cairn/core/pose2.hpp"
 
@@ -22,11 +23,20 @@ struct NoisyMove {
   /// One state, with standard normal numbers for turn 1, drive, turn 2 and aside: the plain form, the oracle
   /// of the batch.
   Pose2 applied(const Pose2& state, double n_turn1, double n_drive, double n_turn2, double n_aside) const;
+
+  /// Whether the noise is so much larger than the rounding of single precision that nobody can tell: not for
+  /// moves without noise, nor for those with noise aside, which asks for a fourth number.
+  bool hides_single_precision() const;
 };
 
 /// Moves all states, in double precision on all lanes (see simd.hpp). Column i of the batch is for state i;
 /// the results differ from NoisyMove::applied by rounding only, and are the same bits on every path and in
 /// every batch. @pre states.size() <= NormalBatch::kCapacity
 void apply(const NoisyMove& move, std::span<Pose2> states, const NormalBatch& noise);
+
+/// Likewise with the steps in single precision, five times as fast: differs from NoisyMove::applied by less
+/// than 2e-5 of the way and 1e-6 of the turns. Headings come out in [-pi, pi).
+/// @pre states.size() <= Normal3Batch::kCapacity, move.hides_single_precision()
+void apply(const NoisyMove& move, std::span<Pose2> states, const Normal3Batch& noise);
 
 }  // namespace cairn
