@@ -84,7 +84,8 @@ HWY_INLINE F length_to_wall(const Places& places, const StepPlaneView& plane, F 
   return hn::IfThenElse(unmet, max_range, length);
 }
 
-// Four vectors of rays at once, so that the memory accesses of one pass while the others compute.
+// Four vectors of rays at once, so that the memory accesses of one pass while the others compute; those whose
+// rays have all ended are left alone.
 void march(const StepPlaneView& plane, const RayOrigins& origins, float cosine, float sine, float max_range,
            std::array<float, RayOrigins::kCapacity>& ranges) {
   const Places::Floats d;
@@ -94,10 +95,12 @@ void march(const StepPlaneView& plane, const RayOrigins& origins, float cosine, 
   for (std::size_t i = 0; i < RayOrigins::kCapacity; i += 4 * kLanes) {
     Rays rays[4];
     for (std::size_t k = 0; k < 4; ++k) rays[k] = start(origins, i + k * kLanes, cosine, sine);
-    bool ended[4];
+    bool ended[4] = {};
     do {
       HWY_UNROLL(4)
-      for (std::size_t k = 0; k < 4; ++k) ended[k] = advance(places, plane, farthest, rays[k]);
+      for (std::size_t k = 0; k < 4; ++k) {
+        if (!ended[k]) ended[k] = advance(places, plane, farthest, rays[k]);
+      }
     } while (!(ended[0] && ended[1] && ended[2] && ended[3]));
     for (std::size_t k = 0; k < 4; ++k)
       hn::StoreU(length_to_wall(places, plane, farthest, rays[k]), d, &ranges[i + k * kLanes]);

@@ -69,10 +69,10 @@ void sample_in_batches(const NoisyMove& move, std::span<Pose2> states, const Ran
 void DifferentialDrive::propagate(const Pose2& T_before_after, std::span<Pose2> states,
                                   const RandomStream& random) const {
   const NoisyMove move = noisy_move(T_before_after);
-  if (move.hides_single_precision()) {
-    sample_in_batches<Normal3Batch>(move, states, random);
-  } else {
+  if (move.goes_aside()) {
     sample_in_batches<NormalBatch>(move, states, random);
+  } else {
+    sample_in_batches<Normal3Batch>(move, states, random);
   }
 }
 

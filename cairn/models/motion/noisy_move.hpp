@@ -24,9 +24,7 @@ struct NoisyMove {
   /// of the batch.
   Pose2 applied(const Pose2& state, double n_turn1, double n_drive, double n_turn2, double n_aside) const;
 
-  /// Whether the noise is so much larger than the rounding of single precision that nobody can tell: not for
-  /// moves without noise, nor for those with noise aside, which asks for a fourth number.
-  bool hides_single_precision() const;
+  bool goes_aside() const { return aside != 0.0 || sigma_aside != 0.0; }
 };
 
 /// Moves all states, in double precision on all lanes (see simd.hpp). Column i of the batch is for state i;
@@ -34,9 +32,7 @@ struct NoisyMove {
 /// every batch. @pre states.size() <= NormalBatch::kCapacity
 void apply(const NoisyMove& move, std::span<Pose2> states, const NormalBatch& noise);
 
-/// Likewise with the steps in single precision, five times as fast: differs from NoisyMove::applied by less
-/// than 2e-5 of the way and 1e-6 of the turns. Headings come out in [-pi, pi).
-/// @pre states.size() <= Normal3Batch::kCapacity, move.hides_single_precision()
+/// The same with the numbers for turn 1, drive and turn 2 alone. @pre !move.goes_aside()
 void apply(const NoisyMove& move, std::span<Pose2> states, const Normal3Batch& noise);
 
 }  // namespace cairn

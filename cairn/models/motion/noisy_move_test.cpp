@@ -97,70 +97,50 @@ TEST(NoisyMove, WhatIsNotANumberStaysThat) {
   }
 }
 
-NoisyMove without_aside() {
+NoisyMove straight_on() {
   NoisyMove move = kMove;
   move.aside = move.sigma_aside = 0.0;
   return move;
 }
 
-std::vector<Pose2> sampled(std::vector<Pose2> states, std::size_t per_batch) {
+std::vector<Pose2> moved_by_three(std::vector<Pose2> states, std::size_t per_batch) {
   const RandomStream random(2, RandomPurpose::kTest, 0);
   Normal3Batch noise;
   for (std::size_t begin = 0; begin < states.size(); begin += per_batch) {
     const std::size_t count = std::min(per_batch, states.size() - begin);
     noise.fill(random, static_cast<std::uint32_t>(begin), count);
-    apply(without_aside(), std::span(states).subspan(begin, count), noise);
+    apply(straight_on(), std::span(states).subspan(begin, count), noise);
   }
   return states;
 }
 
-TEST(NoisyMoveInSinglePrecision, IsCloseToOneByOne) {
+TEST(NoisyMoveByThreeNumbers, IsOneByOne) {
   std::vector<Pose2> states = some_states(1000);
   states[17].theta = 9.0, states[18].theta = -kPi, states[500].theta = -31.0;
-  const std::vector<Pose2> found = sampled(states, 128);
+  const std::vector<Pose2> found = moved_by_three(states, 128);
   const RandomStream random(2, RandomPurpose::kTest, 0);
   Normal3Batch noise;
   for (std::uint32_t i = 0; i < states.size(); ++i) {
     noise.fill(random, i, 1);
     const Pose2 expected =
-        without_aside().applied(states[i], noise.number(0)[0], noise.number(1)[0], noise.number(2)[0], 0.0);
-    EXPECT_NEAR(found[i].x, expected.x, 2e-5 * 2.0);  // the longest ways are 2 m
-    EXPECT_NEAR(found[i].y, expected.y, 2e-5 * 2.0);
-    EXPECT_NEAR(angle_difference(found[i].theta, expected.theta), 0.0, 1e-6) << i;
+        straight_on().applied(states[i], noise.number(0)[0], noise.number(1)[0], noise.number(2)[0], 0.0);
+    EXPECT_NEAR(found[i].x, expected.x, 1e-13);
+    EXPECT_NEAR(found[i].y, expected.y, 1e-13);
+    EXPECT_NEAR(angle_difference(found[i].theta, expected.theta), 0.0, 1e-13) << i;
     EXPECT_TRUE(found[i].theta >= -kPi && found[i].theta < kPi);
   }
 }
 
-TEST(NoisyMoveInSinglePrecision, EveryPathAndEveryBatchGivesTheSameBits) {
+TEST(NoisyMoveByThreeNumbers, EveryPathAndEveryBatchGivesTheSameBits) {
   const std::vector<Pose2> states = some_states(517);
-  const std::vector<Pose2> expected = sampled(states, 128);
+  const std::vector<Pose2> expected = moved_by_three(states, 128);
   test::on_every_simd_path([&](SimdPath path) {
     for (const std::size_t per_batch : {1, 5, 64, 128}) {
-      const std::vector<Pose2> found = sampled(states, per_batch);
+      const std::vector<Pose2> found = moved_by_three(states, per_batch);
       EXPECT_EQ(std::memcmp(found.data(), expected.data(), sizeof(Pose2) * found.size()), 0)
           << name_of(path) << ", batches of " << per_batch;
     }
   });
-}
-
-TEST(NoisyMoveInSinglePrecision, OnlyWhereTheNoiseHidesIt) {
-  EXPECT_TRUE(without_aside().hides_single_precision());
-  EXPECT_TRUE((NoisyMove{.turn2 = 1.0, .sigma_turn2 = 0.1}.hides_single_precision()));  // goes nowhere
-  EXPECT_TRUE(NoisyMove{}.hides_single_precision());                                    // nothing to round
-  EXPECT_FALSE((NoisyMove{.turn2 = 1.0}.hides_single_precision()));
-  EXPECT_FALSE(kMove.hides_single_precision());
-  EXPECT_FALSE((NoisyMove{.drive = 1.0, .sigma_turn1 = 0.1}.hides_single_precision()));
-}
-
-TEST(NoisyMoveInSinglePrecision, WhatIsNotANumberStaysThat) {
-  Normal3Batch noise;
-  noise.fill({1, RandomPurpose::kTest, 0}, 0, 20);
-  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
-    std::vector<Pose2> states(20, Pose2{1, 2, 3});
-    states[3].theta = bad, states[7].x = bad;
-    apply(without_aside(), states, noise);
-    for (std::size_t i = 0; i < states.size(); ++i) EXPECT_EQ(is_finite(states[i]), i != 3 && i != 7) << i;
-  }
 }
 
 }  // namespace
