@@ -6,6 +6,11 @@
 #include <cmath>
 
 namespace cairn {
+namespace {
+
+constexpr double kHalfSide = 16.0;  // of OccupiedBins::kSide cells
+
+}  // namespace
 
 OccupiedBins::OccupiedBins(const KldOptions& options)
     : bins_(options),
@@ -26,8 +31,8 @@ void OccupiedBins::clear() {
 }
 
 void OccupiedBins::put_marks_around(const Pose2& pose) {
-  first_x_ = std::floor(pose.x * cells_per_m_) - kSide / 2;
-  first_y_ = std::floor(pose.y * cells_per_m_) - kSide / 2;
+  first_x_ = std::floor(pose.x * cells_per_m_) - kHalfSide;
+  first_y_ = std::floor(pose.y * cells_per_m_) - kHalfSide;
   placed_ = true;
 }
 
@@ -45,9 +50,9 @@ void OccupiedBins::insert(std::span<const Pose2> poses) {
     // A turn more, so that cutting off is rounding down.
     const auto turn = static_cast<std::int32_t>(theta * cells_per_rad_ + headings_);
     const std::int32_t heading = turn >= headings_ ? turn - headings_ : turn;
-    const std::int32_t cell =
-        (static_cast<std::int32_t>(y) * kSide + static_cast<std::int32_t>(x)) * headings_;
-    std::uint8_t& mark = marks_[static_cast<std::size_t>(cell + heading)];
+    const std::int32_t row = static_cast<std::int32_t>(y) * kSide + static_cast<std::int32_t>(x);
+    std::uint8_t& mark = marks_[static_cast<std::size_t>(row) * static_cast<std::size_t>(headings_) +
+                                static_cast<std::size_t>(heading)];
     fresh += mark != round_ ? 1 : 0;
     mark = round_;
   }
