@@ -19,6 +19,7 @@ using Runner = std::function<int()>;
 // One file per subcommand: each adds its options to `program` and, when chosen, sets `run`.
 void add_config(CLI::App& program, Runner& run);
 void add_evaluate(CLI::App& program, Runner& run);
+void add_kidnap(CLI::App& program, Runner& run);
 void add_localize(CLI::App& program, Runner& run);
 void add_locate(CLI::App& program, Runner& run);
 void add_log(CLI::App& program, Runner& run);

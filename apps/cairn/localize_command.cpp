@@ -165,6 +165,7 @@ RunData to_run_data(Inputs& inputs, const LocalizeResult& result, const nlohmann
   run.metrics = metrics;
   run.configuration = write_configuration([&](OptionVisitor& v) { inputs.options.visit(v); });
   run.map = inputs.map;
+  run.hypotheses = result.hypotheses;
   run.particles = result.snapshots;
   run.reference = inputs.reference;
   return run;

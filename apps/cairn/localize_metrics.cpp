@@ -3,6 +3,7 @@
 #include "cairn/core/angle.hpp"
 #include "cairn/core/errors.hpp"
 #include "cairn/eval/score.hpp"
+#include "cairn/localization/monitor.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -87,6 +88,26 @@ json warnings_json(std::initializer_list<const Diagnostics*> all) {
   return warnings;
 }
 
+// How the localizer judged itself: share of the scans per state, and how often it became lost.
+json monitor_json(const std::vector<Estimate>& estimates) {
+  json shares = json::object();
+  int times_lost = 0;
+  TrackingState before = TrackingState::kTracking;
+  for (const Estimate& e : estimates) {
+    const TrackingState state = e.judgement.state;
+    const char* name = to_string(state);
+    shares[name] = shares.value(name, 0.0) + 1.0 / static_cast<double>(estimates.size());
+    times_lost += state == TrackingState::kLost && before != TrackingState::kLost ? 1 : 0;
+    before = state;
+  }
+  json monitor = {{"shares", shares}, {"times_lost", times_lost}};
+  if (estimates.empty()) return monitor;
+  monitor["state"] = to_string(before);
+  monitor["probability"] = estimates.back().judgement.probability;
+  monitor["reason"] = explain(estimates.back().judgement);
+  return monitor;
+}
+
 std::string text_of(const json& metrics) {
   std::string text;
   if (metrics.contains("accuracy")) {
@@ -153,6 +174,7 @@ RunSummary summarize_run(const RunContext& context, const Log& log, const Occupa
        {"outcomes", outcomes_json(log, result.outcomes)},
        {"drop_rates", drop_rates_json(log, result.outcomes)},
        {"updates", result.updates},
+       {"monitor", monitor_json(result.estimates)},
        {"timings", timings_json(context, log, result)},
        {"peak_memory_bytes", peak_memory_bytes()},
        {"warnings", warnings_json({&log.diagnostics, &input_diagnostics, &result.diagnostics})}};

@@ -1,11 +1,11 @@
 #include "apps/cairn/localize_run.hpp"
 
+#include "cairn/localization/monitor.hpp"
 #include "cairn/localization/odometry_track.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include <spdlog/fmt/fmt.h>
@@ -81,16 +81,23 @@ MapLibrary library_of(const LocalizeRequest& request) {
   return library;
 }
 
-// Of the last scans, each once, however many moments its belief was carried on to.
-std::vector<double> last_qualities(const std::vector<Estimate>& estimates) {
-  std::vector<double> qualities;
+// The last scans, each once, however many moments its belief was carried on to.
+std::vector<Estimate> last_scans(const std::vector<Estimate>& estimates) {
+  std::vector<Estimate> scans;
   std::optional<Time> belief;
-  for (std::size_t i = estimates.size(); i-- > 0 && qualities.size() < kLastScans;) {
+  for (std::size_t i = estimates.size(); i-- > 0 && scans.size() < kLastScans;) {
     if (belief == estimates[i].belief_stamp) continue;
     belief = estimates[i].belief_stamp;
-    qualities.push_back(estimates[i].quality);
+    scans.push_back(estimates[i]);
   }
-  return qualities;
+  return scans;
+}
+
+bool is_mostly_lost(const std::vector<Estimate>& scans) {
+  const auto lost = std::count_if(scans.begin(), scans.end(), [](const Estimate& e) {
+    return e.judgement.state == TrackingState::kLost;
+  });
+  return 2 * lost > static_cast<std::ptrdiff_t>(scans.size());
 }
 
 }  // namespace
@@ -103,6 +110,7 @@ LocalizeResult localize(const LocalizeRequest& request) {
                                 request.seed, executor);
   const auto tell = [&](const Estimate& estimate) {
     result.estimates.push_back(estimate);
+    result.hypotheses.push_back(localizer.hypotheses());
     request.on_estimate(estimate);
   };
   CurrentEstimates current(tell);
@@ -132,11 +140,12 @@ LocalizeResult localize(const LocalizeRequest& request) {
 
 EndVerdict judge_end(const std::vector<Estimate>& estimates) {
   if (estimates.empty()) return {true, "no scan could be used"};
-  const std::vector<double> qualities = last_qualities(estimates);
-  const std::size_t count = qualities.size();
-  const double quality =
-      std::accumulate(qualities.begin(), qualities.end(), 0.0) / static_cast<double>(count);
+  const std::vector<Estimate> scans = last_scans(estimates);
+  const std::size_t count = scans.size();
+  double quality = 0.0;
+  for (const Estimate& scan : scans) quality += scan.quality / static_cast<double>(count);
   const Estimate& last = estimates.back();
+  if (is_mostly_lost(scans)) return {true, explain(last.judgement)};
   if (quality < kLeastQuality) {
     return {true,
             fmt::format("the map explains only {:.0f} % of the beams of the last {} scans: the robot is "

@@ -38,6 +38,7 @@ struct LocalizeRequest {
 struct LocalizeResult {
   /// One per scan that was used or not needed, or (live) one per moment: see LocalizeRequest::live.
   std::vector<Estimate> estimates;
+  std::vector<HypothesisSnapshot> hypotheses;  ///< with every estimate
   std::vector<ParticleSnapshot> snapshots;  ///< evenly spread over the run
   std::vector<OutcomeCounts> outcomes;      ///< per stream of the log
   Diagnostics diagnostics;

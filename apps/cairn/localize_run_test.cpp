@@ -153,6 +153,17 @@ TEST(JudgeEnd, CountsAScanOnceHoweverOftenItsBeliefIsTold) {
   EXPECT_TRUE(judge_end(estimates).lost) << "0.9 * 15 / 20 = 0.675";
 }
 
+TEST(JudgeEnd, TheMonitorSaysLost) {
+  const auto lost = [](Estimate& e) {
+    e.judgement.explained = e.judgement.beyond = 0.4;
+    e.judgement.state = TrackingState::kLost;
+    e.judgement.probability = 0.03;
+  };
+  EXPECT_FALSE(verdict(10, lost).lost);
+  EXPECT_TRUE(verdict(11, lost).lost);
+  EXPECT_THAT(verdict(11, lost).reason, HasSubstr("probability of 3 % only"));
+}
+
 TEST(JudgeEnd, AWideOrDividedBeliefIsLost) {
   const auto wide = [](Estimate& e) { e.covariance(0, 0) = 4.0; };
   EXPECT_THAT(verdict(1, wide).reason, HasSubstr("known to 2.0 m only"));

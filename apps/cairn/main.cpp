@@ -42,6 +42,7 @@ int main(int argc, char** argv) {
   cairn::app::Runner run;
   cairn::app::add_config(program, run);
   cairn::app::add_evaluate(program, run);
+  cairn::app::add_kidnap(program, run);
   cairn::app::add_localize(program, run);
   cairn::app::add_locate(program, run);
   cairn::app::add_log(program, run);

@@ -18,6 +18,7 @@ ReportData report_data(RunData&& run, std::string map_png) {
   data.configuration = std::move(run.configuration);
   data.trajectory = std::move(run.trajectory);
   data.estimates = std::move(run.estimates);
+  data.hypotheses = std::move(run.hypotheses);
   data.particles = std::move(run.particles);
   data.reference = std::move(run.reference);
   if (run.map) data.map = ReportMap{std::move(map_png), run.map->geometry()};

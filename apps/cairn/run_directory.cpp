@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 constexpr const char* kStage = ".writing";
 constexpr const char* kMarker = "metrics.json";
 // Files that a run may lack: those of an earlier run must not stay beside a new one.
-constexpr const char* kOptional[] = {"particles.csv", "reference.tum", "map.yaml",
-                                     "map.png",       "report.html",   "run.mcap"};
+constexpr const char* kOptional[] = {"particles.csv", "hypotheses.csv", "reference.tum", "map.yaml",
+                                     "map.png",       "report.html",    "run.mcap"};
 constexpr const char* kRecording = "run.mcap";
 constexpr const char* kRunAgain = "write the run again with `cairn localize --out`";
 
@@ -48,6 +48,7 @@ void write_stage(const fs::path& stage, const RunData& run) {
   write_file(stage / "trajectory.tum", to_tum(run.trajectory));
   write_file(stage / "estimate.csv", to_csv(run.estimates));
   write_file(stage / "config.yaml", run.configuration);
+  if (!run.hypotheses.empty()) write_file(stage / "hypotheses.csv", to_csv(run.hypotheses));
   if (!run.particles.empty()) write_file(stage / "particles.csv", to_csv(run.particles));
   if (run.map) write_map(stage / "map.yaml", *run.map);
   if (run.reference) write_file(stage / "reference.tum", to_tum(*run.reference));
@@ -149,6 +150,9 @@ RunData read_run(const fs::path& directory) {
   run.estimates = parse_estimates(text("estimate.csv"), label("estimate.csv"));
   run.configuration = text("config.yaml");
   if (fs::exists(directory / "map.yaml")) run.map = read_map(directory / "map.yaml");
+  if (fs::exists(directory / "hypotheses.csv")) {
+    run.hypotheses = parse_hypotheses(text("hypotheses.csv"), label("hypotheses.csv"));
+  }
   if (fs::exists(directory / "particles.csv")) {
     run.particles = parse_particles(text("particles.csv"), label("particles.csv"));
   }

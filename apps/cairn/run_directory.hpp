@@ -22,6 +22,7 @@ struct RunData {
   nlohmann::json metrics;                    ///< metrics.json: an object with at least "cairn_version"
   std::string configuration;                 ///< config.yaml: the effective configuration
   std::shared_ptr<const OccupancyGrid> map;  ///< map.yaml and map.png; may be absent (null)
+  std::vector<HypothesisSnapshot> hypotheses;  ///< hypotheses.csv; may be empty
   std::vector<ParticleSnapshot> particles;   ///< particles.csv; may be empty
   std::optional<Trajectory> reference;       ///< reference.tum; absent without a reference
   bool recorded = false;                     ///< run.mcap: write_run finds it where prepare_recording said

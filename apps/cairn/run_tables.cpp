@@ -24,12 +24,20 @@ void append(std::string& text, double value) {
   text.append(digits, end.ptr);
 }
 
-void append_row(std::string& text, Time stamp, std::initializer_list<double> values) {
-  text += format_time(stamp);
+void append_more(std::string& text, std::initializer_list<double> values) {
   for (const double value : values) {
     text += ',';
     append(text, value);
   }
+}
+
+void append_values(std::string& text, Time stamp, std::initializer_list<double> values) {
+  text += format_time(stamp);
+  append_more(text, values);
+}
+
+void append_row(std::string& text, Time stamp, std::initializer_list<double> values) {
+  append_values(text, stamp, values);
   text += '\n';
 }
 
@@ -72,6 +80,14 @@ class TableReader {
       fail_field(field, "is not a count");
     }
     return value;
+  }
+
+  TrackingState state() {
+    const std::string_view field = next_field();
+    for (std::size_t i = 0; i < kTrackingStateCount; ++i) {
+      if (field == to_string(static_cast<TrackingState>(i))) return static_cast<TrackingState>(i);
+    }
+    fail_field(field, "is not a state");
   }
 
   Time stamp() {
@@ -123,20 +139,36 @@ void expect_later(const TableReader& table, const Rows& rows, Time stamp) {
   if (!rows.empty() && !(rows.back().stamp < stamp)) table.fail("the stamp is not later than the one before");
 }
 
+Eigen::Matrix3d parse_covariance(TableReader& table) {
+  Eigen::Matrix3d covariance;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = row; column < 3; ++column) {
+      covariance(row, column) = covariance(column, row) = table.number();
+    }
+  }
+  return covariance;
+}
+
+Judgement parse_judgement(TableReader& table) {
+  Judgement j;
+  j.state = table.state();
+  for (double* value :
+       {&j.probability, &j.explained, &j.blocked, &j.beyond, &j.fit, &j.innovation, &j.entropy})
+    *value = table.number();
+  return j;
+}
+
 Estimate parse_estimate(TableReader& table) {
   Estimate e;
   e.stamp = table.stamp();
   e.T_map_base = table.pose();
-  for (int row = 0; row < 3; ++row) {
-    for (int column = row; column < 3; ++column) {
-      e.covariance(row, column) = e.covariance(column, row) = table.number();
-    }
-  }
+  e.covariance = parse_covariance(table);
   e.ess = table.number();
   e.particles = table.count();
   e.hypotheses = table.count();
   e.weight = table.number();
   e.quality = table.number();
+  e.judgement = parse_judgement(table);
   table.expect_end();
   return e;
 }
@@ -155,7 +187,12 @@ Trajectory parse_tum(const std::string& text, const std::string& name) {
   std::istringstream input(text);
   Diagnostics diagnostics;
   Trajectory trajectory = read_tum(input, name, diagnostics);
-  if (!diagnostics.empty()) throw InputError(diagnostics.examples().front().text, "is damaged", kRunAgain);
+  // An estimate may jump: a lost robot was found.
+  Diagnostics damage;
+  for (const auto& [kind, count] : diagnostics.counts()) {
+    if (kind != "implausible units") damage.count(kind, count);
+  }
+  if (!damage.empty()) throw InputError(diagnostics.examples().front().text, "is damaged", kRunAgain);
   return trajectory;
 }
 
@@ -165,9 +202,13 @@ std::string to_csv(const std::vector<Estimate>& estimates) {
   for (const Estimate& e : estimates) {
     const Pose2& p = e.T_map_base;
     const Eigen::Matrix3d& c = e.covariance;
-    append_row(text, e.stamp,
-               {p.x, p.y, p.theta, c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2), e.ess,
-                static_cast<double>(e.particles), static_cast<double>(e.hypotheses), e.weight, e.quality});
+    append_values(text, e.stamp,
+                  {p.x, p.y, p.theta, c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2), e.ess,
+                   static_cast<double>(e.particles), static_cast<double>(e.hypotheses), e.weight, e.quality});
+    const Judgement& j = e.judgement;
+    text.append(",").append(to_string(j.state));
+    append_more(text, {j.probability, j.explained, j.blocked, j.beyond, j.fit, j.innovation, j.entropy});
+    text += '\n';
   }
   return text;
 }
@@ -183,6 +224,40 @@ std::vector<Estimate> parse_estimates(std::string_view text, const std::string& 
     estimates.push_back(estimate);
   }
   return estimates;
+}
+
+std::string to_csv(const std::vector<HypothesisSnapshot>& snapshots) {
+  std::string text(kHypothesisHeader);
+  text += '\n';
+  for (const HypothesisSnapshot& snapshot : snapshots) {
+    for (const Hypothesis& h : snapshot.hypotheses) {
+      const Pose2& p = h.T_map_base;
+      const Eigen::Matrix3d& c = h.covariance;
+      append_row(text, snapshot.stamp,
+                 {static_cast<double>(h.id), h.weight, h.age_s, p.x, p.y, p.theta, c(0, 0), c(0, 1), c(0, 2),
+                  c(1, 1), c(1, 2), c(2, 2)});
+    }
+  }
+  return text;
+}
+
+std::vector<HypothesisSnapshot> parse_hypotheses(std::string_view text, const std::string& name) {
+  std::vector<HypothesisSnapshot> snapshots;
+  TableReader table(text, name);
+  table.expect_header(kHypothesisHeader);
+  while (table.next()) {
+    const Time stamp = table.stamp();
+    Hypothesis h;
+    h.id = static_cast<std::uint32_t>(table.count());
+    h.weight = table.number();
+    h.age_s = table.number();
+    h.T_map_base = table.pose();
+    h.covariance = parse_covariance(table);
+    table.expect_end();
+    if (snapshots.empty() || snapshots.back().stamp != stamp) snapshots.push_back({stamp, {}});
+    snapshots.back().hypotheses.push_back(h);
+  }
+  return snapshots;
 }
 
 std::string to_csv(const std::vector<ParticleSnapshot>& snapshots) {

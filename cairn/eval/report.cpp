@@ -21,6 +21,7 @@ using nlohmann::json;
 constexpr std::size_t kMaxPoints = 4000;
 constexpr std::size_t kMaxSnapshots = 400;
 constexpr std::size_t kMaxParticles = 120;
+constexpr std::size_t kMaxPlaces = 12;
 
 // Digits that no eye could see only make the file longer.
 double rounded(double value, double unit) { return std::round(value / unit) * unit; }
@@ -57,6 +58,7 @@ class RunWriter {
   json belief_series() const;
   json error_path(const std::vector<PosePair>& pairs, const Ate& ate) const;
   void write_errors(json& out) const;
+  json hypotheses() const;
   json particles() const;
 
   const ReportData& run_;
@@ -78,7 +80,7 @@ json RunWriter::path(const Trajectory& trajectory) const {
 json RunWriter::belief() const {
   json columns;
   for (const char* name : {"t", "x", "y", "var_x", "cov_xy", "var_y", "var_theta", "ess", "particles",
-                           "hypotheses", "weight", "quality"}) {
+                           "hypotheses", "weight", "quality", "state", "probability"}) {
     columns[name] = json::array();
   }
   for (const std::size_t i : select_evenly(run_.estimates.size(), kMaxPoints)) {
@@ -95,6 +97,8 @@ json RunWriter::belief() const {
     columns["hypotheses"].push_back(e.hypotheses);
     columns["weight"].push_back(number(e.weight, 4));
     columns["quality"].push_back(number(e.quality, 4));
+    columns["state"].push_back(static_cast<int>(e.judgement.state));
+    columns["probability"].push_back(number(e.judgement.probability, 4));
   }
   return columns;
 }
@@ -126,6 +130,7 @@ json RunWriter::belief_series() const {
       {"ess", of([](const Estimate& e) { return e.ess; })},
       {"particles", of([](const Estimate& e) { return static_cast<double>(e.particles); })},
       {"quality", of([](const Estimate& e) { return e.quality; })},
+      {"probability", of([](const Estimate& e) { return e.judgement.probability; })},
       {"hypotheses", of([](const Estimate& e) { return static_cast<double>(e.hypotheses); })},
       {"weight", of([](const Estimate& e) { return e.weight; })},
   };
@@ -172,6 +177,26 @@ void RunWriter::write_errors(json& out) const {
   out["histograms"] = {{"position", histogram(position)}, {"heading", histogram(heading_degrees)}};
 }
 
+json RunWriter::hypotheses() const {
+  json t = json::array();
+  json places = json::array();
+  for (const std::size_t i : select_evenly(run_.hypotheses.size(), kMaxPoints)) {
+    const HypothesisSnapshot& snapshot = run_.hypotheses[i];
+    t.push_back(time(snapshot.stamp));
+    json flat = json::array();
+    for (const std::size_t k : select_evenly(snapshot.hypotheses.size(), kMaxPlaces)) {
+      const Hypothesis& h = snapshot.hypotheses[k];
+      for (const double value : {h.T_map_base.x, h.T_map_base.y}) flat.push_back(number(value, 3));
+      for (const double value : {h.covariance(0, 0), h.covariance(0, 1), h.covariance(1, 1)})
+        flat.push_back(significant(value));
+      flat.push_back(number(h.weight, 3));
+      flat.push_back(number(h.age_s, 1));
+    }
+    places.push_back(std::move(flat));
+  }
+  return {{"t", std::move(t)}, {"places", std::move(places)}};
+}
+
 json RunWriter::particles() const {
   json t = json::array();
   json clouds = json::array();
@@ -208,6 +233,7 @@ json RunWriter::write() const {
   out["path"] = path(run_.trajectory);
   out["belief"] = belief();
   out["series"] = belief_series();
+  out["hypotheses"] = hypotheses();
   out["particles"] = particles();
   write_errors(out);
   if (run_.map) out["map"] = map_of(*run_.map);

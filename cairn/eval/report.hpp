@@ -24,6 +24,7 @@ struct ReportData {
   std::string configuration;  ///< YAML
   Trajectory trajectory;      ///< T_map_base
   std::vector<Estimate> estimates;
+  std::vector<HypothesisSnapshot> hypotheses;
   std::vector<ParticleSnapshot> particles;
   std::optional<Trajectory> reference;  ///< T_map_base; without it the report shows no errors
   std::optional<ReportMap> map;
@@ -39,9 +40,11 @@ struct ReportData {
 /// - metrics, configuration: as given; bytes that are not UTF-8 become U+FFFD
 /// - path, reference: columns t, x, y, theta
 /// - belief: columns t, x, y, var_x, cov_xy, var_y, var_theta, ess, particles, hypotheses, weight, quality
+///   and state (index into TrackingState), probability
+/// - hypotheses: t, and places: x, y, var_x, cov_xy, var_y, weight, age_s of each place in turn, heaviest first
 /// - series: columns t, v for each of sigma_x_m, sigma_y_m, sigma_position_m, sigma_theta_rad, ess,
 /// particles,
-///   hypotheses, weight, quality, and with a reference position_error_m, heading_error_rad
+///   hypotheses, weight, quality, probability, and with a reference position_error_m, heading_error_rad
 /// - errors: columns t, x, y, position_m, heading_rad (absolute), and the number p95_m of all errors; only
 /// where reference and run overlap in time
 /// - histograms: position (metres), heading (degrees), each {width, counts, beyond} of all errors; only with

@@ -15,7 +15,8 @@ template <class AnyEstimate, class Visit>
 void for_each_field(AnyEstimate& estimate, Visit visit) {
   // A member that Estimate gains must be recorded, too: then this line no longer compiles.
   auto& [stamp, T_map_base, covariance, ess, particles, hypotheses, weight, quality, belief_stamp,
-         T_map_odom] = estimate;
+         T_map_odom, judgement] = estimate;
+  auto& [state, probability, explained, blocked, beyond, fit, innovation, entropy] = judgement;
   visit("stamp", stamp);
   visit("x", T_map_base.x);
   visit("y", T_map_base.y);
@@ -35,11 +36,20 @@ void for_each_field(AnyEstimate& estimate, Visit visit) {
   visit("map_odom_x", T_map_odom.x);
   visit("map_odom_y", T_map_odom.y);
   visit("map_odom_theta", T_map_odom.theta);
+  visit("state", state);
+  visit("probability", probability);
+  visit("explained", explained);
+  visit("blocked", blocked);
+  visit("beyond", beyond);
+  visit("fit", fit);
+  visit("innovation", innovation);
+  visit("entropy", entropy);
 }
 
 // How a member is written: its type in the schema, and the number that stands for it.
 std::int64_t wire(Time time) { return time.time_since_epoch().count(); }
 std::int32_t wire(int value) { return value; }
+std::int32_t wire(TrackingState state) { return static_cast<std::int32_t>(state); }
 double wire(double value) { return value; }
 
 const char* wire_type(std::int64_t) { return "int64"; }
@@ -48,6 +58,9 @@ const char* wire_type(double) { return "float64"; }
 
 void take(cdr::Reader& fields, Time& time) { time = Time(Duration(fields.number<std::int64_t>())); }
 void take(cdr::Reader& fields, int& value) { value = fields.number<std::int32_t>(); }
+void take(cdr::Reader& fields, TrackingState& state) {
+  state = static_cast<TrackingState>(fields.number<std::int32_t>());
+}
 void take(cdr::Reader& fields, double& value) { value = fields.number<double>(); }
 
 struct Value {
@@ -61,6 +74,9 @@ Value value_of(const char* field, Time time) {
 }
 Value value_of(const char* field, int value) {
   return {field, static_cast<std::uint64_t>(value), std::to_string(value)};
+}
+Value value_of(const char* field, TrackingState state) {
+  return {field, static_cast<std::uint64_t>(state), std::to_string(static_cast<int>(state))};
 }
 Value value_of(const char* field, double value) {
   return {field, std::bit_cast<std::uint64_t>(value), to_text(value)};

@@ -23,6 +23,13 @@ const char* to_string(Outcome outcome) {
   return index < kOutcomeCount ? kNames[index] : "unknown";
 }
 
+const char* to_string(TrackingState state) {
+  static constexpr std::array<const char*, kTrackingStateCount> kNames = {"tracking", "crowded", "ambiguous",
+                                                                          "lost", "sensor_fault"};
+  const auto index = static_cast<std::size_t>(state);
+  return index < kTrackingStateCount ? kNames[index] : "unknown";
+}
+
 bool is_use(Outcome outcome) {
   return outcome == Outcome::kUsed || outcome == Outcome::kReplayed || outcome == Outcome::kDeferred;
 }

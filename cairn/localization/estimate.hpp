@@ -2,6 +2,7 @@
 
 #include "cairn/core/pose2.hpp"
 #include "cairn/core/time.hpp"
+#include "cairn/localization/judgement.hpp"
 
 #include <array>
 #include <cstdint>
@@ -21,11 +22,27 @@ struct Estimate {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, theta) in the map frame: m, rad
   double ess = 0.0;                                      ///< effective sample size of the last update
   int particles = 0;
-  int hypotheses = 0;    ///< separate clusters of particles
-  double weight = 0.0;   ///< share of the belief in the heaviest one
-  double quality = 0.0;  ///< share of the last scan's beams that the map explains at T_map_base, 0..1
-  Time belief_stamp{};   ///< of the newest measurement that the belief knows of: not after `stamp`
-  Pose2 T_map_odom{};    ///< correction of the odometry: T_map_base = T_map_odom * T_odom_base
+  int hypotheses = 0;     ///< separate clusters of particles
+  double weight = 0.0;    ///< share of the belief in the heaviest one
+  double quality = 0.0;   ///< share of the last scan's beams that the map explains at T_map_base, 0..1
+  Time belief_stamp{};    ///< of the newest measurement that the belief knows of: not after `stamp`
+  Pose2 T_map_odom{};     ///< correction of the odometry: T_map_base = T_map_odom * T_odom_base
+  Judgement judgement{};  ///< what the localizer thinks of it
+};
+
+/// A place where the robot may be: a group of particles that hangs together.
+struct Hypothesis {
+  Pose2 T_map_base;                                      ///< mean of this group alone
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of this group alone: (x, y, theta), m, rad
+  double weight = 0.0;                                   ///< share of the whole belief
+  double age_s = 0.0;                                    ///< since it was first seen
+  std::uint32_t id = 0;  ///< the same as long as it is followed; counted from 1 in one run
+};
+
+/// All places that the belief holds at one instant, the heaviest first. Those of no weight are left out.
+struct HypothesisSnapshot {
+  Time stamp;
+  std::vector<Hypothesis> hypotheses;
 };
 
 /// What became of a measurement. Every one ends in exactly one of these.

@@ -26,8 +26,9 @@ FusionLocalizer::FusionLocalizer(FusionParts parts)
       scheduler_(parts.scheduler, std::move(parts.streams.shares)),
       watchdog_(std::move(parts.streams.periods), parts.time.watchdog_factor),
       history_(history_of(parts.time)),
-      belief_(std::move(parts.filter), std::move(parts.streams.models), parts.trigger,
-              std::move(parts.global_start), std::move(parts.executor)),
+      belief_({std::move(parts.filter), std::move(parts.streams.models), parts.trigger,
+               std::move(parts.global_start), Monitor(parts.monitor), parts.recovery,
+               std::move(parts.executor)}),
       cost_clock_(std::move(parts.cost_clock)),
       accounts_(stream_names_.size()),
       queued_(stream_names_.size()) {}
@@ -256,6 +257,11 @@ std::optional<Estimate> FusionLocalizer::estimate() const {
 Time FusionLocalizer::current_stamp() const {
   const OdometryTrack& odometry = synchronizer_.odometry();
   return odometry.empty() ? belief_.stamp() : std::max(belief_.stamp(), odometry.newest().stamp);
+}
+
+HypothesisSnapshot FusionLocalizer::hypotheses() const {
+  if (!belief_.started()) return {};
+  return belief_.hypotheses_at(current_stamp(), synchronizer_.odometry());
 }
 
 ParticleSnapshot FusionLocalizer::snapshot(std::size_t at_most) const {

@@ -26,6 +26,8 @@ struct FusionParts {
   std::unique_ptr<GlobalStart> global_start;  ///< null: the filter is initialised
   std::unique_ptr<CostClock> cost_clock;
   PoseBelief::Trigger trigger;
+  MonitorOptions monitor;
+  std::optional<Recovery> recovery = {};  ///< nullopt: a lost robot is not looked for
   TimeOptions time;
   SchedulerOptions scheduler;
   std::shared_ptr<const Executor> executor;
@@ -56,6 +58,7 @@ class FusionLocalizer : public Localizer {
   Outcome process(const Event& event) override;
   void finish() override;
   std::optional<Estimate> estimate() const override;
+  HypothesisSnapshot hypotheses() const override;
   ParticleSnapshot snapshot(std::size_t at_most) const override;
   const std::vector<OutcomeCounts>& outcomes() const override { return accounts_.table(); }
   const Diagnostics& diagnostics() const override { return diagnostics_; }

@@ -187,6 +187,8 @@ void LocalizerOptions::visit(OptionVisitor& v) {
   section("time", "data that comes late, or not at all", time);
   section("scheduler", "which measurements get the computing time", scheduler);
   section("cgr", "recipe cgr: refinement of the particles along the gradient of the measurement", cgr);
+  section("monitor", "how the localizer judges itself, log-odds per figure of a scan", monitor);
+  section("recovery", "global localization of a robot that is lost", recovery);
   std::vector<std::string> present;
   for (const auto& [name, unused] : streams) present.push_back(name);
   v.table({"streams", "laser streams by their name in the log; none: every laser stream is used"}, present,

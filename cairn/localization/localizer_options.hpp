@@ -7,6 +7,8 @@
 #include "cairn/bayes/pose_kernel.hpp"
 #include "cairn/bayes/triggers/triggers.hpp"
 #include "cairn/core/options.hpp"
+#include "cairn/localization/monitor.hpp"
+#include "cairn/localization/recovery.hpp"
 #include "cairn/localization/scheduler.hpp"
 #include "cairn/localization/time_options.hpp"
 #include "cairn/models/motion/differential_drive.hpp"
@@ -116,6 +118,8 @@ struct LocalizerOptions {
   TimeOptions time;
   SchedulerOptions scheduler;
   CgrOptions cgr;
+  MonitorOptions monitor;
+  RecoveryOptions recovery;
   std::map<std::string, LaserStreamOptions>
       streams;  ///< by name in the log; none: every laser stream is used
 

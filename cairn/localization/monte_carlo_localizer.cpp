@@ -28,6 +28,12 @@ void start_near(const Pose2& pose, const GridGeometry& grid, const InitialOption
       [&](const RandomStream& random, std::uint32_t i) { return sample_near(pose, spread, random, i); });
 }
 
+// Recipes whose filter injects particles by itself do as their papers say.
+bool has_own_recovery(const std::string& recipe) {
+  return recipe == "amcl" || recipe == "srl" || recipe == "kld_srl" || recipe == "csrl" ||
+         recipe == "ckld_srl";
+}
+
 FusionParts compose(const LocalizerOptions& options, const std::vector<StreamInfo>& streams,
                     const MapLibrary& maps, const Start& start, std::uint64_t seed,
                     std::shared_ptr<const Executor> executor, std::unique_ptr<CostClock> cost_clock) {
@@ -45,6 +51,9 @@ FusionParts compose(const LocalizerOptions& options, const std::vector<StreamInf
   parts.cost_clock =
       cost_clock ? std::move(cost_clock) : std::make_unique<ModelledCost>(options.scheduler.cost_ns);
   parts.trigger = {options.update, options.random_walk};
+  parts.monitor = options.monitor;
+  if (options.recovery.active && !has_own_recovery(options.recipe))
+    parts.recovery.emplace(options.recovery, seed);
   parts.time = options.time;
   parts.scheduler = options.scheduler;
   parts.executor = std::move(executor);

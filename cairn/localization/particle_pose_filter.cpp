@@ -1,12 +1,19 @@
 #include "cairn/localization/particle_pose_filter.hpp"
 
-#include "cairn/bayes/clustering.hpp"
+#include "cairn/bayes/hypotheses.hpp"
 #include "cairn/bayes/resampling/systematic.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace cairn {
+namespace {
+
+// Finer than the groups that a filter keeps apart, so that a belief that is spread along a corridor is one
+// long place; but means of cells rather than cells that touch, so that two headings at one place are two.
+constexpr HypothesisOptions kPlaces{.cell_m = 1.0, .fuse_m = 1.5, .fuse_rad = 0.5};
+
+}  // namespace
 
 struct ParticlePoseFilter::FilterCheckpoint final : PoseFilter::Checkpoint {
   Filter::Checkpoint state;
@@ -19,18 +26,15 @@ void ParticlePoseFilter::predict(const PoseControl& control) {
 
 PoseSummary ParticlePoseFilter::summarize() const {
   const ParticleSet<Pose2>& particles = filter_.particles();
-  std::vector<double> weights = particles.weights;
-  const Clusters clusters = cluster_poses(particles.states, weights, {});
-  if (!clusters.weight.empty()) {
-    for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = clusters.label[i] == 0 ? weights[i] : 0.0;
-  }
-  const PoseMoments moments = weighted_moments(particles.states, weights);
-  return {.T_map_base = moments.mean,
-          .covariance = moments.covariance,
+  PoseHypotheses places = find_hypotheses(particles.states, particles.weights, kPlaces);
+  const PoseHypothesis& heaviest = places.found.front();
+  return {.T_map_base = heaviest.mean,
+          .covariance = heaviest.covariance,
           .ess = filter_.ess(),
           .particles = static_cast<int>(particles.size()),
-          .hypotheses = std::max(1, static_cast<int>(clusters.weight.size())),
-          .weight = clusters.weight.empty() ? 1.0 : clusters.weight[0]};
+          .hypotheses = static_cast<int>(places.found.size()),
+          .weight = heaviest.weight,
+          .places = std::move(places.found)};
 }
 
 std::vector<Pose2> ParticlePoseFilter::sample(std::size_t at_most) const {

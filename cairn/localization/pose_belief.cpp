@@ -1,5 +1,7 @@
 #include "cairn/localization/pose_belief.hpp"
 
+#include "cairn/core/angle.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -15,19 +17,27 @@ Eigen::Matrix3d carried(const Eigen::Matrix3d& covariance, const Pose2& from, co
   return jacobian * covariance * jacobian.transpose();
 }
 
+// Below this probability all scans are kept for a search.
+constexpr double kDoubt = 0.9;
+
+double apart(const Pose2& a, const Pose2& b) {
+  return distance(a, b) + std::abs(normalize_angle(a.theta - b.theta));
+}
+
 }  // namespace
 
-PoseBelief::PoseBelief(std::unique_ptr<PoseFilter> filter,
-                       std::vector<std::unique_ptr<const StreamModel>> models, const Trigger& trigger,
-                       std::unique_ptr<GlobalStart> global_start, std::shared_ptr<const Executor> executor)
-    : filter_(std::move(filter)),
-      models_(std::move(models)),
-      walk_(trigger.walk),
-      update_trigger_(make_trigger(trigger.update.trigger())),
-      global_start_(std::move(global_start)),
-      executor_(std::move(executor)) {
+PoseBelief::PoseBelief(Parts parts)
+    : filter_(std::move(parts.filter)),
+      models_(std::move(parts.models)),
+      walk_(parts.trigger.walk),
+      update_trigger_(make_trigger(parts.trigger.update.trigger())),
+      global_start_(std::move(parts.global_start)),
+      monitor_(parts.monitor),
+      recovery_(parts.recovery),
+      executor_(std::move(parts.executor)) {
   state_.used_at.resize(models_.size());
   state_.offered.resize(models_.size());
+  state_.monitor = Monitor::begin(models_.size(), global_start_ != nullptr);
 }
 
 PoseBelief::Application PoseBelief::apply(const Event& event, const OdometryTrack& odometry,
@@ -77,10 +87,16 @@ PoseBelief::Application PoseBelief::update(const Event& event, const OdometryTra
   const StreamModel& model = *models_[event.stream];
   const bool informs = model.informs(event.payload);
   const bool anywhere = !state_.started && global_start_;
+  PoseControl moved;
+  double since_s = 0.0;
+  if (state_.started) {
+    moved = odometry.control(state_.updated_at, event.stamp);
+    since_s = to_seconds(event.stamp - state_.updated_at.stamp);
+  }
   if (anywhere) {
     start_anywhere(model, event.payload);
   } else {
-    filter_->predict(state_.started ? odometry.control(state_.updated_at, event.stamp) : PoseControl{});
+    filter_->predict(moved);
     if (informs) {
       BoundUpdate<Pose2> z = model.bind_given(event.payload, filter_->compact(), [this](std::size_t at_most) {
         return filter_->sample(at_most);
@@ -92,17 +108,55 @@ PoseBelief::Application PoseBelief::update(const Event& event, const OdometryTra
   state_.updated_at = odometry.anchor_at(event.stamp);
   state_.used_at[event.stream] = state_.updated_at;
   state_.offered[event.stream] = 0;
-  const PoseSummary now = filter_->summarize();
-  state_.updated = {
-      .stamp = event.stamp,
-      .T_map_base = now.T_map_base,
-      .covariance = now.covariance,
-      .ess = now.ess,
-      .particles = now.particles,
-      .hypotheses = now.hypotheses,
-      .weight = now.weight,
-      .quality = informs ? model.explained_share(event.payload, now.T_map_base) : state_.updated.quality};
+  summarize(moved.T_before_after, since_s);
+  judge(model, event, moved.T_before_after);
+  recover(model, event, moved.T_before_after);
   return {informs, {model.beams(event.payload), static_cast<std::int64_t>(filter_->size())}};
+}
+
+void PoseBelief::summarize(const Pose2& moved, double since_s) {
+  const PoseSummary now = filter_->summarize();
+  const PoseHypothesis alone{now.weight, now.T_map_base, now.covariance,
+                             static_cast<std::size_t>(now.particles)};
+  const auto places = now.places.empty() ? std::span(&alone, 1) : std::span(now.places);
+  const std::uint32_t heaviest = state_.track.heaviest();
+  follow_hypotheses(places, moved, since_s, {}, state_.track, scratch_);
+  if (heaviest != 0 && state_.track.heaviest() != heaviest) Monitor::start_over(state_.monitor);
+  state_.updated.T_map_base = now.T_map_base;
+  state_.updated.covariance = now.covariance;
+  state_.updated.ess = now.ess;
+  state_.updated.particles = now.particles;
+  state_.updated.hypotheses = now.hypotheses;
+  state_.updated.weight = now.weight;
+}
+
+void PoseBelief::judge(const StreamModel& model, const Event& event, const Pose2& moved) {
+  Estimate& now = state_.updated;
+  const Pose2 predicted = state_.pose * moved;
+  state_.pose = now.T_map_base;
+  now.stamp = event.stamp;
+  if (model.informs(event.payload)) now.quality = model.explained_share(event.payload, now.T_map_base);
+  now.judgement = monitor_.update(state_.monitor,
+                                  {.stream = event.stream,
+                                   .seen = model.classify(event.payload, now.T_map_base),
+                                   .quality = now.quality,
+                                   .places = state_.track.places,
+                                   .innovation_m = state_.started ? apart(predicted, now.T_map_base) : 0.0});
+}
+
+// What was found competes with what is believed; where it wins, the monitor begins anew.
+void PoseBelief::recover(const StreamModel& model, const Event& event, const Pose2& moved) {
+  if (!recovery_) return;
+  const double right = monitor_.right(state_.monitor);
+  const bool in_doubt = right < kDoubt || state_.monitor.last_evidence < 0.0;
+  Recovery::carry(state_.recovery, moved);
+  if (model.informs(event.payload))
+    recovery_->observe(state_.recovery, event.stream, event.payload, in_doubt);
+  if (recovery_->recover(state_.recovery, model, event.stamp, right, *filter_) == 0.0) return;
+  summarize({}, 0.0);
+  state_.pose = state_.updated.T_map_base;
+  state_.updated.quality = model.explained_share(event.payload, state_.updated.T_map_base);
+  state_.updated.judgement.probability = state_.updated.weight * monitor_.right(state_.monitor);
 }
 
 // The first measurement of a robot that may be anywhere makes the first particles; it must not weigh them
@@ -123,6 +177,18 @@ Estimate PoseBelief::estimate_at(Time stamp, const OdometryTrack& odometry) cons
   estimate.belief_stamp = state_.stamp;
   estimate.T_map_odom = estimate.T_map_base * inverse(now.T_odom_base);
   return estimate;
+}
+
+HypothesisSnapshot PoseBelief::hypotheses_at(Time stamp, const OdometryTrack& odometry) const {
+  HypothesisSnapshot snapshot{stamp, state_.track.places};
+  const Pose2 T_then_now = odometry.control(state_.updated_at, stamp).T_before_after;
+  for (Hypothesis& place : snapshot.hypotheses) {
+    const Pose2 then = place.T_map_base;
+    place.T_map_base = then * T_then_now;
+    place.covariance = carried(place.covariance, then, place.T_map_base);
+    place.age_s += to_seconds(stamp - state_.updated.stamp);
+  }
+  return snapshot;
 }
 
 ParticleSnapshot PoseBelief::snapshot_at(Time stamp, std::size_t at_most,

@@ -4,9 +4,12 @@
 #include "cairn/localization/cost_clock.hpp"
 #include "cairn/localization/estimate.hpp"
 #include "cairn/localization/global_start.hpp"
+#include "cairn/localization/hypothesis_track.hpp"
 #include "cairn/localization/localizer_options.hpp"
+#include "cairn/localization/monitor.hpp"
 #include "cairn/localization/odometry_track.hpp"
 #include "cairn/localization/pose_filter.hpp"
+#include "cairn/localization/recovery.hpp"
 #include "cairn/localization/scheduler.hpp"
 #include "cairn/localization/stream_model.hpp"
 
@@ -27,11 +30,18 @@ class PoseBelief {
     RandomWalkOptions walk;  ///< counts as motion where there is no odometry
   };
 
-  /// @param models per stream; null: the stream is not bound
-  /// @param global_start null: the filter is initialised; else the first measurement does that
-  PoseBelief(std::unique_ptr<PoseFilter> filter, std::vector<std::unique_ptr<const StreamModel>> models,
-             const Trigger& trigger, std::unique_ptr<GlobalStart> global_start,
-             std::shared_ptr<const Executor> executor);
+  /// What a belief is made of.
+  struct Parts {
+    std::unique_ptr<PoseFilter> filter;
+    std::vector<std::unique_ptr<const StreamModel>> models;  ///< per stream; null: the stream is not bound
+    Trigger trigger;
+    /// Null: the filter is initialised; else the first measurement does that.
+    std::unique_ptr<GlobalStart> global_start;
+    Monitor monitor;
+    std::optional<Recovery> recovery;  ///< nullopt: a lost robot is not looked for
+    std::shared_ptr<const Executor> executor;
+  };
+  explicit PoseBelief(Parts parts);
 
   bool binds(StreamId stream) const { return models_[stream] != nullptr; }
 
@@ -50,6 +60,8 @@ class PoseBelief {
   Time stamp() const { return state_.stamp; }
   /// The belief, carried by the odometry to `stamp`. @pre started()
   Estimate estimate_at(Time stamp, const OdometryTrack& odometry) const;
+  /// The places of the belief, carried likewise.
+  HypothesisSnapshot hypotheses_at(Time stamp, const OdometryTrack& odometry) const;
   /// A sample of the belief, carried likewise.
   ParticleSnapshot snapshot_at(Time stamp, std::size_t at_most, const OdometryTrack& odometry) const;
 
@@ -64,6 +76,10 @@ class PoseBelief {
     Estimate updated;                                    ///< the belief right after it
     std::vector<std::optional<OdometryAnchor>> used_at;  ///< per stream, its last measurement that was used
     std::vector<std::int64_t> offered;                   ///< per stream, how many came since
+    HypothesisTrack track;
+    Pose2 pose;  ///< of the last update, for the innovation
+    MonitorMemory monitor;
+    RecoveryMemory recovery;
   };
 
  public:
@@ -83,14 +99,20 @@ class PoseBelief {
   void start_anywhere(const StreamModel& model, const Event::Payload& z);
   bool may_begin(const StreamModel& model, const Event::Payload& z) const;
   Application update(const Event& event, const OdometryTrack& odometry);
+  void summarize(const Pose2& moved, double since_s);
+  void judge(const StreamModel& model, const Event& event, const Pose2& moved);
+  void recover(const StreamModel& model, const Event& event, const Pose2& moved);
 
   std::unique_ptr<PoseFilter> filter_;
   std::vector<std::unique_ptr<const StreamModel>> models_;
   RandomWalkOptions walk_;
   std::unique_ptr<const cairn::Trigger> update_trigger_;
   std::unique_ptr<GlobalStart> global_start_;
+  Monitor monitor_;
+  std::optional<Recovery> recovery_;
   std::shared_ptr<const Executor> executor_;
   State state_;
+  std::vector<Hypothesis> scratch_;
 };
 
 }  // namespace cairn

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cairn/bayes/hypotheses.hpp"
 #include "cairn/bayes/models.hpp"
 #include "cairn/core/pose2.hpp"
 #include "cairn/core/rng.hpp"
@@ -8,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -26,8 +28,9 @@ struct PoseSummary {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, theta) in the map frame: m, rad
   double ess = 0.0;                                      ///< effective sample size
   int particles = 0;
-  int hypotheses = 1;   ///< separate groups of particles
-  double weight = 1.0;  ///< share of the belief in the heaviest one
+  int hypotheses = 1;                       ///< separate groups of particles
+  double weight = 1.0;                      ///< share of the belief in the heaviest one
+  std::vector<PoseHypothesis> places = {};  ///< those groups, heaviest first; none: there is one, as above
 };
 
 /// A Bayes filter over the pose of a robot, of whatever kind: what the run-time around it knows of it.
@@ -50,6 +53,10 @@ class PoseFilter {
   virtual void initialize(const Sampler& sample) = 0;
   virtual void predict(const PoseControl& control) = 0;
   virtual void correct(const BoundUpdate<Pose2>& z) = 0;
+
+  /// Lets `states` compete with what is believed: they get `share` of the belief, each by its weight, the
+  /// rest keeps 1 - share. @pre as many weights as states, their sum > 0; 0 < share < 1
+  virtual void take_in(std::span<const Pose2> states, std::span<const double> weights, double share) = 0;
 
   /// False while the belief is spread over several places.
   virtual bool compact() const = 0;

@@ -1,11 +1,10 @@
 #include "cairn/localization/stream_binding.hpp"
 
 #include "cairn/core/errors.hpp"
+#include "cairn/localization/laser_locator.hpp"
 #include "cairn/models/derived_maps.hpp"
-#include "cairn/models/search/one_shot.hpp"
 
 #include <algorithm>
-#include <mutex>
 
 namespace cairn {
 namespace {
@@ -46,72 +45,55 @@ void check_names(const LocalizerOptions& options, const std::vector<StreamInfo>&
   }
 }
 
-/// Finds a scanner's poses anywhere on a map; the map is prepared when that is first asked for.
-class LaserLocator {
- public:
-  LaserLocator(std::shared_ptr<const OccupancyGrid> map, const LocalizerOptions& options,
-               const Pose2& T_base_sensor, const BeamLimits& limits)
-      : map_(std::move(map)),
-        model_(options.laser.likelihood_field),
-        T_base_sensor_(T_base_sensor),
-        limits_(limits) {
-    search_options_.most_poses = options.global.most_poses;
-    search_options_.effective_beams = options.global.effective_beams;
-  }
-
-  std::vector<LocatedPose> locate(const LaserScan& scan) const {
-    std::call_once(prepared_, [this] { search_ = std::make_unique<const PoseSearch>(*map_, model_); });
-    const auto points = select_end_points(scan, T_base_sensor_, limits_, kSearchedBeams);
-    return cairn::locate(*search_, points, search_options_).poses;
-  }
-
- private:
-  static constexpr int kSearchedBeams = 180;
-  std::shared_ptr<const OccupancyGrid> map_;
-  LikelihoodFieldOptions model_;
-  Pose2 T_base_sensor_;
-  BeamLimits limits_;
-  OneShotOptions search_options_;
-  mutable std::once_flag prepared_;
-  mutable std::unique_ptr<const PoseSearch> search_;
+/// What a laser stream is made of.
+struct LaserParts {
+  std::shared_ptr<const LaserModel> fine;
+  std::shared_ptr<const LaserModel> coarse;
+  std::unique_ptr<const BeamSkipping> skipping;  ///< null: all beams count
+  std::unique_ptr<const LaserLocator> start;     ///< null: the search for the start is switched off
+  std::unique_ptr<const LaserLocator> recovery;  ///< null: recovery is switched off
+  std::unique_ptr<const BeamClassifier> classes;
+  BeamLimits limits;
+  int max_beams = 0;
+  double cost = 1.0;
 };
 
-// A laser scanner: one sensor model at two widths, what takes dynamic obstacles from its scans, and a search
-// over the whole map.
+// A laser scanner: one sensor model at two widths, searches over the whole map, classes of beams,
+// and what takes dynamic obstacles from its scans.
 class LaserStream final : public StreamModel {
  public:
-  LaserStream(std::shared_ptr<const LaserModel> fine, std::shared_ptr<const LaserModel> coarse,
-              std::unique_ptr<const BeamSkipping> skipping, std::unique_ptr<const LaserLocator> locator,
-              const BeamLimits& limits, int max_beams, double cost)
-      : fine_(std::move(fine)),
-        coarse_(std::move(coarse)),
-        skipping_(std::move(skipping)),
-        locator_(std::move(locator)),
-        limits_(limits),
-        max_beams_(max_beams),
-        cost_(cost) {}
+  explicit LaserStream(LaserParts parts) : parts_(std::move(parts)) {}
 
   BoundUpdate<Pose2> bind(const Event::Payload& z, bool compact) const override {
-    return (compact ? fine_ : coarse_)->bind(scan_of(z));
+    return (compact ? parts_.fine : parts_.coarse)->bind(scan_of(z));
   }
   bool informs(const Event::Payload& z) const override {
-    return fine_->reads_no_returns() || !select_beams(scan_of(z), limits_, 1).empty();
+    return parts_.fine->reads_no_returns() || !select_beams(scan_of(z), parts_.limits, 1).empty();
   }
   // Over several places no beam is expected anywhere: they all count.
   BoundUpdate<Pose2> bind_given(const Event::Payload& z, bool compact,
                                 const BeliefSample& belief) const override {
-    if (!skipping_ || !compact) return bind(z, compact);
-    return fine_->bind(skipping_->expected_part(scan_of(z), belief(kSkippingSample)));
+    if (!parts_.skipping || !compact) return bind(z, compact);
+    return parts_.fine->bind(parts_.skipping->expected_part(scan_of(z), belief(kSkippingSample)));
   }
   double explained_share(const Event::Payload& z, const Pose2& T_map_base) const override {
-    return fine_->explained_share(scan_of(z), T_map_base);
+    return parts_.fine->explained_share(scan_of(z), T_map_base);
   }
   std::vector<LocatedPose> locate(const Event::Payload& z) const override {
-    return locator_ ? locator_->locate(scan_of(z)) : std::vector<LocatedPose>{};
+    return parts_.start ? parts_.start->locate(scan_of(z)) : std::vector<LocatedPose>{};
+  }
+  std::optional<SearchFinding> search(std::span<const Glimpse> glimpses,
+                                      std::span<const Pose2> asked) const override {
+    if (!parts_.recovery) return std::nullopt;
+    return parts_.recovery->search(glimpses, asked);
+  }
+  std::optional<BeamShares> classify(const Event::Payload& z, const Pose2& T_map_base) const override {
+    return parts_.classes->classify(scan_of(z), T_map_base);
   }
   double beams(const Event::Payload& z) const override {
     const auto beams = static_cast<double>(scan_of(z).ranges_m.size());
-    return cost_ * (max_beams_ > 0 ? std::min(beams, static_cast<double>(max_beams_)) : beams);
+    return parts_.cost *
+           (parts_.max_beams > 0 ? std::min(beams, static_cast<double>(parts_.max_beams)) : beams);
   }
 
  private:
@@ -121,14 +103,33 @@ class LaserStream final : public StreamModel {
 
   static constexpr std::size_t kSkippingSample = 100;  // shares to 5 %
 
-  std::shared_ptr<const LaserModel> fine_;
-  std::shared_ptr<const LaserModel> coarse_;
-  std::unique_ptr<const BeamSkipping> skipping_;  ///< null: all beams count
-  std::unique_ptr<const LaserLocator> locator_;   ///< null: the search is switched off
-  BeamLimits limits_;
-  int max_beams_;
-  double cost_;
+  LaserParts parts_;
 };
+
+LaserLocator::Options start_search(const LocalizerOptions& options) {
+  LaserLocator::Options o{.likelihood = options.laser.likelihood_field, .search = {}};
+  o.search.most_poses = options.global.most_poses;
+  o.search.effective_beams = options.global.effective_beams;
+  return o;
+}
+
+LaserLocator::Options recovery_search(const LocalizerOptions& options) {
+  const RecoveryOptions& recovery = options.recovery;
+  LaserLocator::Options o{.likelihood = options.laser.likelihood_field, .search = {}};
+  o.likelihood.sigma_hit_m = recovery.sigma_hit_m;
+  o.search.most_poses = recovery.most_poses;
+  o.search.effective_beams = recovery.effective_beams;
+  o.search.millions_of_points = recovery.millions_of_points;
+  o.further_beams = recovery.further_beams;
+  return o;
+}
+
+std::unique_ptr<const BeamClassifier> make_classifier(const MapSet& map, const LocalizerOptions& options,
+                                                      const Pose2& T_base_sensor, const BeamLimits& limits) {
+  return std::make_unique<const BeamClassifier>(
+      map.grid(), distance_field_of(map, options.laser.likelihood_field.max_distance_m),
+      ray_marcher_of(map, limits.max_range_m), T_base_sensor, limits);
+}
 
 std::unique_ptr<const StreamModel> bind_laser(const LocalizerOptions& options,
                                               const LaserStreamOptions& laser, const StreamInfo& stream,
@@ -144,9 +145,6 @@ std::unique_ptr<const StreamModel> bind_laser(const LocalizerOptions& options,
   }
   const LaserModelOptions coarse = widened(options.laser, options.global.sigma_hit_m, coarse_beams);
   const MapSet& map = maps.at(laser.map);
-  std::unique_ptr<const LaserLocator> locator;
-  if (options.global.most_poses > 0)
-    locator = std::make_unique<const LaserLocator>(map.grid(), options, T_base_sensor, laser.limits);
   std::unique_ptr<const BeamSkipping> skipping;
   if (const BeamSkippingOptions& skip = options.laser.beam_skip; skip.use) {
     const double reach_m = std::max(skip.distance_m, options.laser.likelihood_field.max_distance_m);
@@ -158,10 +156,21 @@ std::unique_ptr<const StreamModel> bind_laser(const LocalizerOptions& options,
     throw ConfigurationError("recipe", "cgr needs the gradient of a sensor model, '" + name + "' has none",
                              "use laser.model=likelihood_field_prob, v_amcl, vector_laser, ndt or ondt");
   }
-  return std::make_unique<const LaserStream>(
-      std::move(model), make_laser_model(name, {map, T_base_sensor, laser.limits, coarse}),
-      std::move(skipping), std::move(locator), laser.limits, options.laser.likelihood_field.max_beams,
-      laser.cost);
+  LaserParts parts{.fine = std::move(model),
+                   .coarse = make_laser_model(name, {map, T_base_sensor, laser.limits, coarse}),
+                   .skipping = std::move(skipping),
+                   .start = nullptr,
+                   .recovery = nullptr,
+                   .classes = make_classifier(map, options, T_base_sensor, laser.limits),
+                   .limits = laser.limits,
+                   .max_beams = options.laser.likelihood_field.max_beams,
+                   .cost = laser.cost};
+  const auto locator = [&](const LaserLocator::Options& how) {
+    return std::make_unique<const LaserLocator>(map.grid(), T_base_sensor, laser.limits, how);
+  };
+  if (options.global.most_poses > 0) parts.start = locator(start_search(options));
+  if (options.recovery.active) parts.recovery = locator(recovery_search(options));
+  return std::make_unique<const LaserStream>(std::move(parts));
 }
 
 // How a laser stream is to be used; nullopt: not at all.

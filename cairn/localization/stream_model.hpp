@@ -4,12 +4,30 @@
 #include "cairn/core/pose2.hpp"
 #include "cairn/localization/cost_clock.hpp"
 #include "cairn/models/search/one_shot.hpp"
+#include "cairn/models/sensor/beam_classes.hpp"
 #include "cairn/sensing/event.hpp"
 
 #include <functional>
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace cairn {
+
+/// A measurement of a short while ago, and where the robot was then as seen from where it is now.
+struct Glimpse {
+  Event::Payload z;
+  Pose2 T_now_then;
+};
+
+/// What a search over the whole map found, and how well the belief fits by the same measure.
+struct SearchFinding {
+  std::vector<LocatedPose> poses;  ///< places where the robot may be now, T_map_base
+  /// Log of the evidence that it is at any of them, each pose on the map being equally likely before:
+  /// log (1 / V) sum over the poses of the integral of the likelihood, V the volume of free poses, m^2 rad.
+  double log_evidence = 0.0;
+  std::vector<double> log_likelihood;  ///< of the poses that were asked for
+};
 
 /// What one stream's measurements tell of the pose: its sensor model, mounting pose and map, bound together.
 /// The run-time around the filter knows no more of a sensor than this. Immutable.
@@ -37,8 +55,20 @@ class StreamModel {
   /// Where the robot may be that measured z, whatever was believed before; none: this sensor cannot tell.
   virtual std::vector<LocatedPose> locate(const Event::Payload& /*z*/) const { return {}; }
 
+  /// Likewise from several measurements of this stream; `asked` are poses T_map_base to compare with.
+  /// nullopt: this sensor cannot tell.
+  virtual std::optional<SearchFinding> search(std::span<const Glimpse> /*glimpses*/,
+                                              std::span<const Pose2> /*asked*/) const {
+    return std::nullopt;
+  }
+
   /// Share of the measurement that the map explains, seen from `T_map_base`: 0..1.
   virtual double explained_share(const Event::Payload& z, const Pose2& T_map_base) const = 0;
+
+  /// How the beams stand to the map, seen from there; nullopt: this sensor has none.
+  virtual std::optional<BeamShares> classify(const Event::Payload& /*z*/, const Pose2& /*T_map_base*/) const {
+    return std::nullopt;
+  }
 
   /// Evaluated parts of the measurement, weighted by what one of them costs (UpdateWork::beams).
   virtual double beams(const Event::Payload& z) const = 0;

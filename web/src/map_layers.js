@@ -129,6 +129,33 @@ export function drawEllipse(context, camera, run, now) {
   context.restore();
 }
 
+// x, y, var_x, cov_xy, var_y, weight, age_s of each place in turn.
+const kPlaceFigures = 7;
+
+/** The other places where the robot may be: ellipses, the stronger the heavier, each with its weight and age. */
+export function drawOtherPlaces(context, camera, run, now) {
+  const { t, places } = run.hypotheses;
+  const i = nearest(t, now);
+  if (i < 0) return;
+  context.save();
+  context.font = '11px system-ui, sans-serif';
+  context.textAlign = 'center';
+  context.fillStyle = context.strokeStyle = color('accent');
+  for (let k = kPlaceFigures; k < places[i].length; k += kPlaceFigures) {
+    const [x, y, varX, covXY, varY, weight, age] = places[i].slice(k, k + kPlaceFigures);
+    if (!camera.sees(x, y)) continue;
+    const { major, minor, angle } = ellipseOf(varX, covXY, varY);
+    const [px, py] = camera.toScreen(x, y);
+    const size = kEllipse95 * camera.scale;
+    context.globalAlpha = 0.4 + 0.6 * weight;
+    context.beginPath();
+    context.ellipse(px, py, Math.max(4, major * size), Math.max(4, minor * size), -angle, 0, 2 * Math.PI);
+    context.stroke();
+    context.fillText(`${Math.round(100 * weight)} %, ${age.toFixed(1)} s`, px, py - 8);
+  }
+  context.restore();
+}
+
 /** An arrow-head at a pose. */
 export function drawRobot(context, camera, pose, fill) {
   if (!pose) return;

@@ -2,7 +2,7 @@
 import { Camera } from './camera.js';
 import { el } from './dom.js';
 import { color, onThemeChange } from './theme.js';
-import { drawCloud, drawEllipse, drawEstimate, drawReference, drawRobot, drawScaleBar } from './map_layers.js';
+import { drawCloud, drawEllipse, drawEstimate, drawOtherPlaces, drawReference, drawRobot, drawScaleBar } from './map_layers.js';
 import { poseAt } from './series.js';
 
 // Pixels per metre from which on the robot is shown from near.
@@ -69,6 +69,7 @@ export class MapView {
   drawBelief(context) {
     const { scene: { run, layers }, camera, timeline: { now } } = this;
     if (layers.particles) drawCloud(context, camera, run, now);
+    if (layers.ellipse) drawOtherPlaces(context, camera, run, now);
     if (layers.ellipse) drawEllipse(context, camera, run, now);
   }
 }

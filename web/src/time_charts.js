@@ -13,6 +13,7 @@ function toSeries(line) {
     lineStyle: { width: 1.4, color: color(line.color), type: line.dashed ? [5, 3] : 'solid' },
     itemStyle: { color: color(line.color) }, emphasis: { disabled: true },
     areaStyle: line.area && { color: color(line.color), opacity: 0.12 },
+    markArea: line.bands && { silent: true, label: { fontSize: 9, color: color('muted') }, data: line.bands() },
   };
 }
 
@@ -109,6 +110,33 @@ function drawQuality(run, timeline, parent) {
   ], [() => yAxis('quality [%]', { max: 100, interval: 25 })]);
 }
 
+// By the index in TrackingState; tracking is not marked.
+const kStates = ['tracking', 'crowded', 'ambiguous', 'lost', 'sensor fault'];
+const kStateColors = [undefined, 'particles', 'accent', 'error', 'muted'];
+
+/** Spans of time in one state other than tracking: [from, to, state]. */
+export function stateSpans({ t, state }) {
+  const spans = [];
+  for (let i = 0; i < t.length; ++i) {
+    const last = spans[spans.length - 1];
+    if (last && last[2] === state[i]) last[1] = t[i];
+    else {
+      if (last) last[1] = t[i];
+      spans.push([t[i], t[i], state[i]]);
+    }
+  }
+  return spans.filter(([, , s]) => s > 0);
+}
+
+function drawState(run, timeline, parent) {
+  const band = ([from, to, state]) => [
+    { name: kStates[state], xAxis: from, itemStyle: { color: color(kStateColors[state]), opacity: 0.25 } }, { xAxis: to }];
+  timeChart(parent, timeline, 'State: probability that the pose is right, as the localizer judges it', [
+    { name: 'probability', series: run.series.probability, factor: 100, unit: '%', color: 'estimate',
+      bands: () => stateSpans(run.belief).map(band) },
+  ], [() => yAxis('probability [%]', { min: 0, max: 100, interval: 25 })]);
+}
+
 function drawHypotheses(run, timeline, parent) {
   const { hypotheses, weight } = run.series;
   timeChart(parent, timeline, 'Hypotheses', [
@@ -123,6 +151,7 @@ export function drawTimeCharts(run, timeline, parent) {
   if (run.series.sigma_x_m.v.length > 0) {
     drawSigmas(run, timeline, parent);
     drawParticles(run, timeline, parent);
+    drawState(run, timeline, parent);
     drawQuality(run, timeline, parent);
     drawHypotheses(run, timeline, parent);
   }

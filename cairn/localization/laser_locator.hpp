@@ -1,0 +1,42 @@
+#pragma once
+
+#include "cairn/localization/stream_model.hpp"
+#include "cairn/maps/occupancy_grid.hpp"
+#include "cairn/models/sensor/beam_selection.hpp"
+
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+namespace cairn {
+
+/// Finds a scanner's poses anywhere on a map. The map is prepared when that is first asked for.
+class LaserLocator {
+ public:
+  struct Options {
+    LikelihoodFieldOptions likelihood;
+    OneShotOptions search;
+    double further_beams = 10.0;  ///< as which each scan after the first counts, in independent beams
+  };
+
+  LaserLocator(std::shared_ptr<const OccupancyGrid> map, const Pose2& T_base_sensor, const BeamLimits& limits,
+               const Options& options)
+      : map_(std::move(map)), T_base_sensor_(T_base_sensor), limits_(limits), options_(options) {}
+
+  std::vector<LocatedPose> locate(const LaserScan& scan) const;
+  SearchFinding search(std::span<const Glimpse> glimpses, std::span<const Pose2> asked) const;
+
+ private:
+  const PoseSearch& prepared() const;
+  std::vector<Point2> joined(std::span<const Glimpse> glimpses) const;
+
+  std::shared_ptr<const OccupancyGrid> map_;
+  Pose2 T_base_sensor_;
+  BeamLimits limits_;
+  Options options_;
+  mutable std::once_flag once_;
+  mutable std::unique_ptr<const PoseSearch> search_;
+};
+
+}  // namespace cairn
