@@ -1,4 +1,5 @@
 #include "apps/cairn/commands.hpp"
+#include "apps/cairn/map_ambiguity.hpp"
 #include "apps/cairn/map_building.hpp"
 #include "apps/cairn/map_convert.hpp"
 #include "apps/cairn/ndt_output.hpp"
@@ -197,6 +198,7 @@ void add_map(CLI::App& program, Runner& run) {
   add_build(*command, run);
   add_info(*command, run);
   add_map_convert(*command, run);
+  add_map_ambiguity(*command, run);
 }
 
 }  // namespace cairn::app
