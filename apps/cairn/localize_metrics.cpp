@@ -30,9 +30,8 @@ json log_json(const std::string& path, const Log& log, const std::vector<Outcome
   json streams = json::array();
   for (std::size_t i = 0; i < log.streams.size(); ++i) {
     const std::int64_t messages = std::accumulate(outcomes[i].begin(), outcomes[i].end(), std::int64_t{0});
-    streams.push_back({{"name", log.streams[i].name},
-                       {"kind", log.streams[i].kind == StreamKind::kOdometry ? "odometry" : "laser_scan"},
-                       {"messages", messages}});
+    streams.push_back(
+        {{"name", log.streams[i].name}, {"kind", name_of(log.streams[i].kind)}, {"messages", messages}});
   }
   return {{"path", path}, {"format", log.format}, {"span_s", span_s(log)}, {"streams", streams}};
 }

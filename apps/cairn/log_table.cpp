@@ -34,11 +34,19 @@ std::string headline(const LogSummary& summary) {
                      to_seconds(summary.last));
 }
 
+// "laser scan", as the table of lasers calls it: "laser".
+std::string kind_text(StreamKind kind) {
+  if (kind == StreamKind::kLaserScan) return "laser";
+  std::string text(name_of(kind));
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
 std::string stream_table(const LogSummary& summary) {
   std::vector<Row> rows = {
       {"stream", "kind", "messages", "span s", "rate Hz", "median ms", "gaps", "longest s", "reversals"}};
   for (const StreamSummary& s : summary.streams) {
-    rows.push_back({s.info.name, s.laser ? "laser" : "odometry", std::to_string(s.messages),
+    rows.push_back({s.info.name, kind_text(s.info.kind), std::to_string(s.messages),
                     fmt::format("{:.1f}", to_seconds(s.last - s.first)), fmt::format("{:.2f}", s.rate_hz),
                     fmt::format("{:.1f}", 1e3 * s.median_period_s), std::to_string(s.gaps),
                     fmt::format("{:.2f}", s.longest_gap_s), std::to_string(s.time_reversals)});
@@ -64,6 +72,21 @@ std::string laser_table(const LogSummary& summary) {
   std::vector<Row> rows = {{"laser", "beams", "angles deg", "range m", "valid", "mount x m, y m, yaw deg"}};
   for (const StreamSummary& s : summary.streams) {
     if (s.laser) rows.push_back(laser_row(s));
+  }
+  return rows.size() > 1 ? "\n" + table(rows) : "";
+}
+
+std::string sensor_table(const LogSummary& summary) {
+  std::vector<Row> rows = {{"sensor", "readings", "valid", "mount x m, y m, yaw deg"}};
+  for (const StreamSummary& s : summary.streams) {
+    if (!s.sensor) continue;
+    const auto& [least, most, valid_share] = *s.sensor;
+    const auto& mount = s.info.T_base_sensor;
+    rows.push_back(
+        {s.info.name, least == most ? std::to_string(most) : fmt::format("{} to {}", least, most),
+         fmt::format("{:.1f} %", 100.0 * valid_share),
+         mount ? fmt::format("{:.3f}, {:.3f}, {:.1f}", mount->x, mount->y, radians_to_degrees(mount->theta))
+               : "unknown"});
   }
   return rows.size() > 1 ? "\n" + table(rows) : "";
 }
@@ -94,8 +117,8 @@ std::string warnings(const Diagnostics& diagnostics) {
 }  // namespace
 
 std::string log_table(const LogSummary& summary) {
-  return headline(summary) + "\n" + stream_table(summary) + laser_table(summary) + odometry_table(summary) +
-         warnings(summary.diagnostics);
+  return headline(summary) + "\n" + stream_table(summary) + laser_table(summary) + sensor_table(summary) +
+         odometry_table(summary) + warnings(summary.diagnostics);
 }
 
 }  // namespace cairn::app

@@ -10,7 +10,9 @@
 #include "cairn/io/tum_trajectory.hpp"
 #include "cairn/sim/world_recording.hpp"
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <memory>
 
@@ -52,17 +54,59 @@ std::filesystem::path beside(const std::filesystem::path& log, const char* endin
   return std::filesystem::path(log).replace_extension(ending);
 }
 
-// What a recording of the world says wrong is told with the key's place, as what its building says.
-WorldRecording record(const Arguments& arguments, const World& world, std::uint64_t seed) {
-  WorldRecording recording;
-  const std::string text = is_built_in_world(arguments.world) ? "" : read_world_text(arguments.world);
-  with_key_places(arguments.world, text,
-                  [&] { recording = record_world(world, seed, Executor(arguments.threads)); });
-  return recording;
+bool is_mcap(const std::filesystem::path& log) { return log.extension() == ".mcap"; }
+
+// Said before the robot has driven for an hour.
+void check_format(const std::filesystem::path& log, const std::vector<StreamInfo>& streams) {
+  if (is_mcap(log)) return;
+  for (const StreamInfo& stream : streams) {
+    if (stream.kind == StreamKind::kOdometry || stream.kind == StreamKind::kLaserScan) continue;
+    throw ConfigurationError(
+        "--out",
+        fmt::format("is CARMEN text, which cannot hold '{}' ({})", stream.name, name_of(stream.kind)),
+        "name a log that ends in .mcap");
+  }
 }
 
-void write_log(const std::filesystem::path& path, const Log& log) {
-  path.extension() == ".mcap" ? write_mcap_log(path, log) : write_carmen_log(path, log);
+// Pictures compress well and come twice (event_writer.hpp).
+mcap::Compression compression_for(const std::vector<StreamInfo>& streams) {
+  const bool pictures = std::any_of(streams.begin(), streams.end(), [](const StreamInfo& stream) {
+    return stream.kind == StreamKind::kDepthImage || stream.kind == StreamKind::kCeilingPatch;
+  });
+  return pictures ? mcap::Compression::kZstdPictures : mcap::Compression::kLz4;
+}
+
+void write_mcap(const std::filesystem::path& path, const WorldSimulation& simulation,
+                const Executor& executor) {
+  std::ofstream file(path, std::ios::binary);
+  McapLogWriter writer(file, simulation.streams(), compression_for(simulation.streams()));
+  simulation.run(executor, [&](Event&& event) {
+    writer.add(event);
+    if (!file)
+      throw InputError(path.string(), "cannot be written", "check the folder, its permissions and space");
+  });
+  writer.finish();
+  file.close();
+  if (!file)
+    throw InputError(path.string(), "cannot be written", "check the folder, its permissions and space");
+}
+
+void write_log(const std::filesystem::path& path, const WorldSimulation& simulation,
+               const Executor& executor) {
+  if (is_mcap(path)) return write_mcap(path, simulation, executor);
+  Log log{"", simulation.streams(), {}, {}};
+  simulation.run(executor, [&log](Event&& event) { log.events.push_back(std::move(event)); });
+  write_carmen_log(path, log);
+}
+
+// What the mission finds wrong in the world is told with the key's place, as what its building finds.
+std::unique_ptr<const WorldSimulation> drive(const Arguments& arguments, const World& world,
+                                             std::uint64_t seed) {
+  std::unique_ptr<const WorldSimulation> simulation;
+  const std::string text = is_built_in_world(arguments.world) ? "" : read_world_text(arguments.world);
+  with_key_places(arguments.world, text,
+                  [&] { simulation = std::make_unique<const WorldSimulation>(world, seed); });
+  return simulation;
 }
 
 int print_world(const Arguments& arguments, std::uint64_t seed) {
@@ -77,13 +121,16 @@ int run_simulate(const Arguments& arguments) {
   if (arguments.print) return print_world(arguments, seed);
   const std::filesystem::path log = arguments.out;
   const World world = read_world(arguments.world, settings_of(arguments), seed);
-  WorldRecording recording = record(arguments, world, seed);
-  write_log(log, {"", recording.streams, std::move(recording.events), {}});
-  write_tum(beside(log, ".truth.tum"), recording.truth);
+  const Executor executor(arguments.threads);
+  const auto simulation = drive(arguments, world, seed);
+  check_format(log, simulation->streams());
+  write_log(log, *simulation, executor);
+  const Trajectory& truth = simulation->truth();
+  write_tum(beside(log, ".truth.tum"), truth);
   write_map(beside(log, ".map.yaml"), world.map);
-  const Pose2& start = recording.truth.front().pose;
+  const Pose2& start = truth.front().pose;
   std::cout << fmt::format("log       {} ({:.1f} s, {:.1f} m)\n", log.string(),
-                           to_seconds(recording.truth.back().stamp), path_length(recording.truth))
+                           to_seconds(truth.back().stamp), path_length(truth))
             << fmt::format("truth     {}\n", beside(log, ".truth.tum").string())
             << fmt::format("map       {}\n", beside(log, ".map.yaml").string())
             << fmt::format("start     {:g},{:g},{:g}\n", start.x, start.y, start.theta);

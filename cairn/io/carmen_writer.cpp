@@ -35,7 +35,7 @@ void put_times(std::ostream& output, const Event& event) {
 }
 
 [[noreturn]] void refuse(const std::string& what) {
-  throw InputError("log", what, "a CARMEN log cannot hold it: choose the streams to write");
+  throw InputError("log", what, "a CARMEN log cannot hold it: write an .mcap log, or choose the streams");
 }
 
 /// What has to be known of the whole log before the first message is written.
@@ -50,6 +50,8 @@ std::vector<std::string> name_messages(const Log& log) {
   for (const StreamInfo& stream : log.streams) {
     if (stream.kind == StreamKind::kOdometry) {
       messages.emplace_back("ODOM");
+    } else if (stream.kind != StreamKind::kLaserScan) {
+      refuse("has a stream '" + stream.name + "' of " + std::string(name_of(stream.kind)));
     } else {
       messages.emplace_back(stream.T_base_sensor ? "ROBOTLASER" : "RAWLASER")
           .append(std::to_string(++lasers));
@@ -59,10 +61,6 @@ std::vector<std::string> name_messages(const Log& log) {
   if (odometries != 1) refuse("has not one odometry stream");
   if (lasers > kMostLasers) refuse("has more than nine lasers");
   return messages;
-}
-
-StreamKind kind_of(const Event& event) {
-  return std::holds_alternative<Odometry>(event.payload) ? StreamKind::kOdometry : StreamKind::kLaserScan;
 }
 
 Plan make_plan(const Log& log) {

@@ -144,4 +144,19 @@ std::string pack_zstd_frame(std::string_view bytes) {
   return packed;
 }
 
+std::string pack_zstd_pictures(std::string_view bytes) {
+  constexpr int kFast = 1, kWindowBits = 22;
+  const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(), &ZSTD_freeCCtx);
+  CAIRN_ASSERT(context);
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, kFast);
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_windowLog, kWindowBits);
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_enableLongDistanceMatching, 1);
+  std::string packed(ZSTD_compressBound(bytes.size()), '\0');
+  const std::size_t size =
+      ZSTD_compress2(context.get(), packed.data(), packed.size(), bytes.data(), bytes.size());
+  CAIRN_ASSERT(ZSTD_isError(size) == 0);
+  packed.resize(size);
+  return packed;
+}
+
 }  // namespace cairn

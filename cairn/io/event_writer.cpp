@@ -1,13 +1,16 @@
 #include "cairn/io/event_writer.hpp"
 
 #include "cairn/core/errors.hpp"
+#include "cairn/io/event_twin.hpp"
 #include "cairn/io/exact_log.hpp"
 #include "cairn/io/exact_messages.hpp"
 #include "cairn/io/ros2_messages.hpp"
 #include "cairn/io/ros2_schemas.hpp"
+#include "cairn/io/ros2_sensor_messages.hpp"
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 namespace cairn {
 namespace {
@@ -22,10 +25,6 @@ std::string topic_of(std::string_view name) {
     topic += is_allowed ? c : '_';
   }
   return topic;
-}
-
-StreamKind kind_of(const Event& event) {
-  return std::holds_alternative<Odometry>(event.payload) ? StreamKind::kOdometry : StreamKind::kLaserScan;
 }
 
 std::optional<StreamId> stream_for_tf(const std::vector<StreamInfo>& streams, std::string_view wanted) {
@@ -72,14 +71,19 @@ std::string EventWriter::free_topic(std::string_view name) {
 }
 
 void EventWriter::add_stream(StreamId id, const StreamInfo& info) {
-  const bool is_laser = info.kind == StreamKind::kLaserScan;
   const std::uint16_t schema = schema_id(exact::type_of(info.kind), exact::schema(info.kind));
   const std::uint16_t exact_channel =
       writer_.add_channel(schema, "/cairn/input/" + std::to_string(id), "cdr", exact::to_texts(id, info));
-  const std::uint16_t ros_channel =
-      add_ros_channel(free_topic(info.name), is_laser ? ros2::kLaserScan : ros2::kOdometry);
-  const std::string frame = info.frame.empty() ? "laser_" + std::to_string(id) : info.frame;
-  streams_.push_back({info.kind, frame, exact_channel, ros_channel});
+  const std::string_view type = ros2::twin_type(info.kind);
+  const std::string topic = free_topic(info.name);
+  const std::uint16_t ros_channel = type.empty() ? kNoChannel : add_ros_channel(topic, type);
+  const std::uint16_t info_channel =
+      info.kind == StreamKind::kDepthImage
+          ? add_ros_channel(free_topic(topic + "/camera_info"), ros2::kCameraInfo)
+          : kNoChannel;
+  const std::string prefix = info.kind == StreamKind::kLaserScan ? "laser_" : "sensor_";
+  const std::string frame = info.frame.empty() ? prefix + std::to_string(id) : info.frame;
+  streams_.push_back({info.kind, frame, exact_channel, ros_channel, info_channel, false});
 }
 
 void EventWriter::add_mounts(const std::vector<StreamInfo>& streams) {
@@ -93,17 +97,33 @@ void EventWriter::add_mounts(const std::vector<StreamInfo>& streams) {
     mount.T_parent_child = ros2::rigid(*T_base_sensor);
     mounts.push_back(std::move(mount));
   }
+  add_static(mounts, {});
+}
+
+void EventWriter::add_static(const std::vector<ros::StampedTransform>& mounts, Time arrival) {
   if (mounts.empty()) return;
-  const std::uint16_t channel = add_ros_channel("/tf_static", ros2::kTransforms);
-  writer_.add_message({channel, 0, 0, 0, ros2::encode_transforms(mounts)});
+  if (static_channel_ == kNoChannel) static_channel_ = add_ros_channel("/tf_static", ros2::kTransforms);
+  add_ros_message(static_channel_, 0, arrival, {}, ros2::encode_transforms(mounts));
+}
+
+// A sonar tells where its transducers are with each scan: the first is as good as any.
+void EventWriter::add_transducers(const SonarScan& scan, Time arrival, Stream& stream) {
+  if (std::exchange(stream.has_transducers, true)) return;
+  std::vector<ros::StampedTransform> mounts;
+  for (std::size_t i = 0; i < scan.T_sensor_transducer.size(); ++i)
+    mounts.push_back({{{}, stream.frame},
+                      ros2::transducer_frame(stream.frame, i),
+                      ros2::rigid(scan.T_sensor_transducer[i])});
+  add_static(mounts, arrival);
 }
 
 void EventWriter::add(const Event& event) {
-  if (event.stream >= streams_.size() || streams_[event.stream].kind != kind_of(event)) {
+  const bool holds_something = visit_payload(event, [](const auto&) {});
+  if (!holds_something || event.stream >= streams_.size() || streams_[event.stream].kind != kind_of(event)) {
     throw InputError("event " + std::to_string(events_), "does not fit the table of streams",
                      "give the recorder the streams that the events come from");
   }
-  const Stream& stream = streams_[event.stream];
+  Stream& stream = streams_[event.stream];
   last_arrival_ = event.arrival;
   const std::string data = exact::encode(event);
   writer_.add_message(
@@ -112,15 +132,18 @@ void EventWriter::add(const Event& event) {
   ++events_;
 }
 
-void EventWriter::add_twin(const Event& event, const Stream& stream) {
-  if (const auto* scan = std::get_if<std::shared_ptr<const LaserScan>>(&event.payload)) {
-    const std::string data = ros2::encode_laser_scan({{event.stamp, stream.frame}, **scan});
-    return add_ros_message(stream.ros_channel, events_, event.arrival, event.stamp, data);
+void EventWriter::add_twin(const Event& event, Stream& stream) {
+  if (const auto* scan = std::get_if<std::shared_ptr<const SonarScan>>(&event.payload))
+    add_transducers(**scan, event.arrival, stream);
+  if (const auto* image = std::get_if<std::shared_ptr<const DepthImage>>(&event.payload)) {
+    add_ros_message(stream.info_channel, events_, event.arrival, event.stamp,
+                    ros2::encode_camera_info({event.stamp, stream.frame}, **image));
   }
+  for (const std::string& message : ros2::twins(event, stream.frame))
+    add_ros_message(stream.ros_channel, events_, event.arrival, event.stamp, message);
+  if (event.stream != odometry_stream_) return;
   const Pose2& pose = std::get<Odometry>(event.payload).T_odom_base;
-  const ros::StampedTransform transform{{event.stamp, kOdometryFrame}, kBaseFrame, ros2::rigid(pose)};
-  add_ros_message(stream.ros_channel, events_, event.arrival, event.stamp, ros2::encode_odometry(transform));
-  if (event.stream == odometry_stream_) add_transform(events_, event.arrival, transform);
+  add_transform(events_, event.arrival, {{event.stamp, kOdometryFrame}, kBaseFrame, ros2::rigid(pose)});
 }
 
 void EventWriter::add_ros_message(std::uint16_t channel, std::uint32_t sequence, Time arrival, Time stamp,

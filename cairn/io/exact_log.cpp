@@ -4,6 +4,7 @@
 #include "cairn/io/exact_messages.hpp"
 #include "cairn/io/input_file.hpp"
 #include "cairn/io/ros_messages.hpp"
+#include "cairn/sensing/defect.hpp"
 
 #include <algorithm>
 
@@ -17,23 +18,23 @@ bool is_sensible(Time time) {
   return nanoseconds <= mcap::kLastNanosecond && nanoseconds >= -mcap::kLastNanosecond;
 }
 
+void check_sense(const Odometry& odometry) {
+  ros::require(is_finite(odometry.T_odom_base), "its pose is not finite");
+}
+void check_sense(const LaserScan& scan) { ros::check_scan(scan); }
+template <class Measurement>
+void check_sense(const Measurement& measurement) {
+  const char* const what = defect_of(measurement);
+  ros::require(what == nullptr, what);
+}
+
 void check(const Event& event) {
-  const Time stamp = std::visit(
-      [](const auto& payload) {
-        if constexpr (requires { payload->stamp; }) {
-          return payload->stamp;
-        } else {
-          return payload.stamp;
-        }
-      },
-      event.payload);
-  const bool has_time = is_sensible(event.stamp) && is_sensible(event.arrival) && is_sensible(stamp);
-  ros::require(has_time, "its stamps are beyond all times");
-  if (const auto* odometry = std::get_if<Odometry>(&event.payload)) {
-    ros::require(is_finite(odometry->T_odom_base), "its pose is not finite");
-  } else {
-    ros::check_scan(*std::get<std::shared_ptr<const LaserScan>>(event.payload));
-  }
+  visit_payload(event, [&event](const auto& measurement) {
+    const bool has_time =
+        is_sensible(event.stamp) && is_sensible(event.arrival) && is_sensible(measurement.stamp);
+    ros::require(has_time, "its stamps are beyond all times");
+    check_sense(measurement);
+  });
 }
 
 }  // namespace

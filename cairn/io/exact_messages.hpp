@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cairn/io/exact_payloads.hpp"
 #include "cairn/io/mcap_records.hpp"
 #include "cairn/sensing/event.hpp"
 #include "cairn/sensing/stream_info.hpp"
@@ -14,15 +15,8 @@
 /// those of ROS 2) on a channel of its own. The channel's metadata tell the stream.
 namespace cairn::exact {
 
-inline constexpr std::string_view kOdometry = "cairn_msgs/msg/Odometry";
-inline constexpr std::string_view kLaserScan = "cairn_msgs/msg/LaserScan";
-
-/// Type of the messages of a stream.
-std::string_view type_of(StreamKind kind);
-/// Definition of such a message, as ros2::schema gives it for those of ROS.
-std::string_view schema(StreamKind kind);
-
 /// The event but for its stream: stamps and arrival in nanoseconds, all numbers as wide as they are.
+/// @throws ros::MalformedMessage for an event without a measurement
 std::string encode(const Event& event);
 /// @throws ros::MalformedMessage if the bytes end early or announce more than they hold. Values are not
 ///   judged: NaN comes back as NaN.

@@ -3,6 +3,7 @@
 #include "cairn/core/trajectory.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <nlohmann/json.hpp>
 
@@ -15,6 +16,49 @@ double last_angle(const LaserScan& scan) {
   return scan.angle_min_rad + scan.angle_increment_rad * (static_cast<double>(scan.ranges_m.size()) - 1.0);
 }
 
+/// How many readings a message has, and how many of them say something.
+struct Readings {
+  std::size_t all = 0;
+  std::size_t valid = 0;
+};
+
+Readings readings_in(const SonarScan& scan) {
+  const auto valid = std::count_if(scan.ranges_m.begin(), scan.ranges_m.end(),
+                                   [&](float range) { return scan.is_valid_range(range); });
+  return {scan.ranges_m.size(), static_cast<std::size_t>(valid)};
+}
+
+Readings readings_in(const DepthImage& image) {
+  const auto says = [](auto depth) {
+    const auto metres = static_cast<float>(depth);
+    return metres > 0.0F && std::isfinite(metres);
+  };
+  return std::visit(
+      [&](const auto& depths) {
+        const auto valid = std::count_if(depths.begin(), depths.end(), says);
+        return Readings{depths.size(), static_cast<std::size_t>(valid)};
+      },
+      image.depths);
+}
+
+Readings readings_in(const WifiScan& scan) { return {scan.readings.size(), scan.readings.size()}; }
+
+Readings readings_in(const BeaconRanges& ranges) {
+  const auto valid = std::count_if(ranges.readings.begin(), ranges.readings.end(),
+                                   [](const BeaconReading& reading) { return !std::isnan(reading.range_m); });
+  return {ranges.readings.size(), static_cast<std::size_t>(valid)};
+}
+
+Readings readings_in(const LandmarkDetections& seen) {
+  const auto valid =
+      std::count_if(seen.detections.begin(), seen.detections.end(),
+                    [](const LandmarkDetection& d) { return d.id != LandmarkDetection::kUnknown; });
+  return {seen.detections.size(), static_cast<std::size_t>(valid)};
+}
+
+Readings readings_in(const CeilingPatch& patch) { return {patch.gray.size(), patch.gray.size()}; }
+Readings readings_in(const ImuYawRate&) { return {1, 1}; }
+
 /// Collects what one stream says.
 class StreamTally {
  public:
@@ -23,19 +67,28 @@ class StreamTally {
     trajectory_.push_back({odometry.stamp, odometry.T_odom_base});
   }
 
-  void add(Time stamp, const std::shared_ptr<const LaserScan>& scan) {
+  void add(Time stamp, const LaserScan& scan) {
     stamps_.push_back(stamp);
-    const std::size_t beams = scan->ranges_m.size();
+    const std::size_t beams = scan.ranges_m.size();
     if (!laser_) {
-      laser_ = {beams, beams, scan->angle_min_rad, last_angle(*scan), scan->range_min_m, scan->range_max_m,
-                0.0};
+      laser_ = {beams, beams, scan.angle_min_rad, last_angle(scan), scan.range_min_m, scan.range_max_m, 0.0};
     }
     laser_->beams_min = std::min(laser_->beams_min, beams);
     laser_->beams_max = std::max(laser_->beams_max, beams);
     readings_ += beams;
-    valid_ +=
-        static_cast<std::size_t>(std::count_if(scan->ranges_m.begin(), scan->ranges_m.end(),
-                                               [&](float range) { return scan->is_valid_range(range); }));
+    valid_ += static_cast<std::size_t>(std::count_if(
+        scan.ranges_m.begin(), scan.ranges_m.end(), [&](float range) { return scan.is_valid_range(range); }));
+  }
+
+  template <class Other>
+  void add(Time stamp, const Other& measurement) {
+    stamps_.push_back(stamp);
+    const Readings now = readings_in(measurement);
+    if (!other_) other_ = {now.all, now.all, 0.0};
+    other_->readings_min = std::min(other_->readings_min, now.all);
+    other_->readings_max = std::max(other_->readings_max, now.all);
+    readings_ += now.all;
+    valid_ += now.valid;
   }
 
   StreamSummary summary(const StreamInfo& info) {
@@ -49,7 +102,10 @@ class StreamTally {
     }
     if (laser_ && readings_ > 0)
       laser_->valid_share = static_cast<double>(valid_) / static_cast<double>(readings_);
+    if (other_ && readings_ > 0)
+      other_->valid_share = static_cast<double>(valid_) / static_cast<double>(readings_);
     summary.laser = laser_;
+    summary.sensor = other_;
     return summary;
   }
 
@@ -83,6 +139,7 @@ class StreamTally {
   std::vector<Time> stamps_;  // in the order of the file until summarized
   Trajectory trajectory_;
   std::optional<LaserSummary> laser_;
+  std::optional<SensorSummary> other_;
   std::size_t readings_ = 0;
   std::size_t valid_ = 0;
 };
@@ -101,20 +158,24 @@ nlohmann::ordered_json json_of(const StreamSummary& stream) {
   nlohmann::ordered_json mount;
   if (const auto& T = stream.info.T_base_sensor)
     mount = {{"x_m", T->x}, {"y_m", T->y}, {"theta_rad", T->theta}};
-  nlohmann::ordered_json json = {
-      {"name", stream.info.name},
-      {"kind", stream.info.kind == StreamKind::kOdometry ? "odometry" : "laser_scan"},
-      {"frame", stream.info.frame},
-      {"T_base_sensor", mount},
-      {"messages", stream.messages},
-      {"start_s", to_seconds(stream.first)},
-      {"end_s", to_seconds(stream.last)},
-      {"rate_hz", stream.rate_hz},
-      {"median_period_s", stream.median_period_s},
-      {"gaps", stream.gaps},
-      {"longest_gap_s", stream.longest_gap_s},
-      {"time_reversals", stream.time_reversals}};
+  nlohmann::ordered_json json = {{"name", stream.info.name},
+                                 {"kind", name_of(stream.info.kind)},
+                                 {"frame", stream.info.frame},
+                                 {"T_base_sensor", mount},
+                                 {"messages", stream.messages},
+                                 {"start_s", to_seconds(stream.first)},
+                                 {"end_s", to_seconds(stream.last)},
+                                 {"rate_hz", stream.rate_hz},
+                                 {"median_period_s", stream.median_period_s},
+                                 {"gaps", stream.gaps},
+                                 {"longest_gap_s", stream.longest_gap_s},
+                                 {"time_reversals", stream.time_reversals}};
   if (stream.laser) json["laser"] = json_of(*stream.laser);
+  if (stream.sensor) {
+    json["sensor"] = {{"readings_min", stream.sensor->readings_min},
+                      {"readings_max", stream.sensor->readings_max},
+                      {"valid_share", stream.sensor->valid_share}};
+  }
   if (stream.odometry) {
     json["odometry"] = {{"path_length_m", stream.odometry->path_length_m},
                         {"path_length_by_stamp_m", stream.odometry->path_length_by_stamp_m}};
@@ -139,7 +200,8 @@ nlohmann::ordered_json json_of(const Diagnostics& diagnostics) {
 LogSummary summarize(const Log& log) {
   std::vector<StreamTally> tallies(log.streams.size());
   for (const Event& event : log.events) {
-    std::visit([&](const auto& payload) { tallies[event.stream].add(event.stamp, payload); }, event.payload);
+    visit_payload(event,
+                  [&](const auto& measurement) { tallies[event.stream].add(event.stamp, measurement); });
   }
   LogSummary summary;
   summary.format = log.format;

@@ -20,6 +20,14 @@ struct LaserSummary {
   double valid_share = 0.0;  ///< of all readings, 0..1: neither "no return" nor out of limits
 };
 
+/// What the messages of any other sensor have in common.
+struct SensorSummary {
+  std::size_t readings_min = 0;  ///< in one message: transducers, pixels, access points, beacons, landmarks
+  std::size_t readings_max = 0;
+  /// Of all readings, 0..1: with an echo, with a depth, with a range (beacons), recognised (landmarks).
+  double valid_share = 0.0;
+};
+
 /// A robot's path is the same in the order of the file and in that of the stamps, unless stamps are wrong:
 /// then one of the two, usually the second, is longer, because neighbours were swapped (30 % in the intel
 /// log).
@@ -39,6 +47,7 @@ struct StreamSummary {
   double longest_gap_s = 0.0;      ///< longest step, gap or not
   std::size_t time_reversals = 0;  ///< messages of this stream stamped before their predecessor in the file
   std::optional<LaserSummary> laser;
+  std::optional<SensorSummary> sensor;  ///< neither laser nor odometry
   std::optional<OdometrySummary> odometry;
 };
 
@@ -54,10 +63,10 @@ struct LogSummary {
 
 LogSummary summarize(const Log& log);
 
-/// As JSON, indented: `format, messages, start_s, end_s, span_s, streams: [{name, kind ("odometry" |
-/// "laser_scan"), frame, T_base_sensor ({x_m, y_m, theta_rad} | null), messages, start_s, end_s, rate_hz,
-/// median_period_s, gaps, longest_gap_s, time_reversals, laser: {...} | odometry: {...}}], warnings: [{kind,
-/// count, examples: [text]}]`. Keys are the members' names.
+/// As JSON, indented: `format, messages, start_s, end_s, span_s, streams: [{name, kind (name_of(
+/// StreamKind)), frame, T_base_sensor ({x_m, y_m, theta_rad} | null), messages, start_s, end_s, rate_hz,
+/// median_period_s, gaps, longest_gap_s, time_reversals, laser: {...} | odometry: {...} | sensor: {...}}],
+/// warnings: [{kind, count, examples: [text]}]`. Keys are the members' names.
 std::string to_json(const LogSummary& summary);
 
 }  // namespace cairn

@@ -22,7 +22,8 @@ Packed pack(std::string records, Compression compression) {
   if (compression == Compression::kNone || records.size() < kLeastPackedBytes)
     return {"", std::move(records)};
   if (compression == Compression::kLz4) return {"lz4", pack_lz4_frame(records)};
-  return {"zstd", pack_zstd_frame(records)};
+  const bool pictures = compression == Compression::kZstdPictures;
+  return {"zstd", pictures ? pack_zstd_pictures(records) : pack_zstd_frame(records)};
 }
 
 std::uint16_t next_id(std::size_t count, const char* what) {

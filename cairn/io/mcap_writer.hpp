@@ -10,7 +10,12 @@
 
 namespace cairn::mcap {
 
-enum class Compression : std::uint8_t { kNone, kLz4, kZstd };
+enum class Compression : std::uint8_t {
+  kNone,
+  kLz4,
+  kZstd,
+  kZstdPictures  ///< fast, and finds what stands twice in a chunk, however large: pictures and their twins
+};
 
 /// Makes the bytes of an MCAP file, piece by piece, for whoever stores them.
 ///

@@ -26,14 +26,16 @@ struct Tally {
   double far_readings = 0.0;
   SpeedMeter speed;
 
-  void add(const std::shared_ptr<const LaserScan>& scan) {
-    for (const float range : scan->ranges_m) {
+  void add(const LaserScan& scan) {
+    for (const float range : scan.ranges_m) {
       if (!std::isfinite(range) || range <= 0.0F) continue;
       readings += 1.0;
       far_readings += range > kFarM ? 1.0 : 0.0;
     }
   }
   void add(const Odometry& odometry) { speed.add(odometry.stamp, odometry.T_odom_base); }
+  template <class Other>
+  void add(const Other&) {}  // their units are told by the messages
 };
 
 }  // namespace
@@ -61,7 +63,7 @@ bool implausibly_fast(const Trajectory& path) {
 void warn_of_implausible_units(Log& log, const std::string& name) {
   std::vector<Tally> tallies(log.streams.size());
   for (const Event& event : log.events) {
-    std::visit([&](const auto& payload) { tallies[event.stream].add(payload); }, event.payload);
+    visit_payload(event, [&](const auto& measurement) { tallies[event.stream].add(measurement); });
   }
   for (std::size_t i = 0; i < tallies.size(); ++i) {
     const std::string where = name + ", stream " + log.streams[i].name;

@@ -22,17 +22,6 @@ Header read_header(cdr::Reader& fields) {
   return {Time(Duration(seconds * kNanoseconds + nanoseconds)), ros::frame_name(fields.text())};
 }
 
-void put_header(cdr::Writer& fields, const Header& header) {
-  using Seconds = std::chrono::duration<std::int64_t>;
-  const auto since_epoch = header.stamp.time_since_epoch();
-  const auto seconds = std::chrono::floor<Seconds>(since_epoch).count();
-  const auto nanoseconds = (since_epoch - std::chrono::floor<Seconds>(since_epoch)).count();
-  constexpr std::int64_t kFirst = std::numeric_limits<std::int32_t>::min();
-  constexpr std::int64_t kLast = std::numeric_limits<std::int32_t>::max();
-  fields.number(static_cast<std::int32_t>(std::clamp(seconds, kFirst, kLast)));
-  fields.number(static_cast<std::uint32_t>(nanoseconds)).text(header.frame_id);
-}
-
 std::optional<ros::RigidTransform> read_transform(cdr::Reader& fields) {
   std::array<double, 7> values;
   for (double& value : values) value = fields.number<double>();
@@ -64,6 +53,17 @@ void put_zeros(cdr::Writer& fields, int count) {
 }
 
 }  // namespace
+
+void put_header(cdr::Writer& fields, const ros::Header& header) {
+  using Seconds = std::chrono::duration<std::int64_t>;
+  const auto since_epoch = header.stamp.time_since_epoch();
+  const auto seconds = std::chrono::floor<Seconds>(since_epoch).count();
+  const auto nanoseconds = (since_epoch - std::chrono::floor<Seconds>(since_epoch)).count();
+  constexpr std::int64_t kFirst = std::numeric_limits<std::int32_t>::min();
+  constexpr std::int64_t kLast = std::numeric_limits<std::int32_t>::max();
+  fields.number(static_cast<std::int32_t>(std::clamp(seconds, kFirst, kLast)));
+  fields.number(static_cast<std::uint32_t>(nanoseconds)).text(header.frame_id);
+}
 
 LaserScanMessage decode_laser_scan(std::string_view bytes) {
   cdr::Reader fields(bytes);

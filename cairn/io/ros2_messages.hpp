@@ -33,6 +33,10 @@ std::string encode_transforms(const std::vector<ros::StampedTransform>& transfor
 /// @param covariance  of (x, y, theta): m, rad; its entries go to x, y and the rotation about z
 std::string encode_pose(const ros::Header& header, const Pose2& pose, const Eigen::Matrix3d& covariance);
 
+/// std_msgs/Header, with which most messages begin. A stamp before 1901 or after 2038 is written as the
+/// nearest that fits.
+void put_header(cdr::Writer& fields, const ros::Header& header);
+
 /// z = 0, turned about z by theta.
 ros::RigidTransform rigid(const Pose2& pose);
 

@@ -21,6 +21,8 @@ constexpr Definition kParts[] = {
     {"geometry_msgs/Point", "float64 x\nfloat64 y\nfloat64 z\n"},
     {"geometry_msgs/Vector3", "float64 x\nfloat64 y\nfloat64 z\n"},
     {"geometry_msgs/Quaternion", "float64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1\n"},
+    {"sensor_msgs/RegionOfInterest",
+     "uint32 x_offset\nuint32 y_offset\nuint32 height\nuint32 width\nbool do_rectify\n"},
     {"geometry_msgs/Pose", "Point position\nQuaternion orientation\n"},
     {"geometry_msgs/Transform", "Vector3 translation\nQuaternion rotation\n"},
     {"geometry_msgs/Twist", "Vector3 linear\nVector3 angular\n"},
@@ -48,6 +50,24 @@ constexpr Schema kSchemas[] = {
      {"std_msgs/Header", "builtin_interfaces/Time", "geometry_msgs/PoseWithCovariance", "geometry_msgs/Pose",
       "geometry_msgs/Point", "geometry_msgs/Quaternion", "geometry_msgs/TwistWithCovariance",
       "geometry_msgs/Twist", "geometry_msgs/Vector3"}},
+    {"sensor_msgs/msg/Range",
+     "uint8 ULTRASOUND=0\nuint8 INFRARED=1\nstd_msgs/Header header\nuint8 radiation_type\nfloat32 "
+     "field_of_view\nfloat32 min_range\nfloat32 max_range\nfloat32 range\n",
+     {"std_msgs/Header", "builtin_interfaces/Time"}},
+    {"sensor_msgs/msg/Image",
+     "std_msgs/Header header\nuint32 height\nuint32 width\nstring encoding\nuint8 is_bigendian\nuint32 "
+     "step\nuint8[] data\n",
+     {"std_msgs/Header", "builtin_interfaces/Time"}},
+    {"sensor_msgs/msg/CameraInfo",
+     "std_msgs/Header header\nuint32 height\nuint32 width\nstring distortion_model\nfloat64[] d\nfloat64[9] "
+     "k\nfloat64[9] r\nfloat64[12] p\nuint32 binning_x\nuint32 binning_y\nRegionOfInterest roi\n",
+     {"std_msgs/Header", "builtin_interfaces/Time", "sensor_msgs/RegionOfInterest"}},
+    {"sensor_msgs/msg/Imu",
+     "std_msgs/Header header\ngeometry_msgs/Quaternion orientation\nfloat64[9] "
+     "orientation_covariance\ngeometry_msgs/Vector3 angular_velocity\nfloat64[9] "
+     "angular_velocity_covariance\ngeometry_msgs/Vector3 linear_acceleration\nfloat64[9] "
+     "linear_acceleration_covariance\n",
+     {"std_msgs/Header", "builtin_interfaces/Time", "geometry_msgs/Quaternion", "geometry_msgs/Vector3"}},
     {"tf2_msgs/msg/TFMessage",
      "geometry_msgs/TransformStamped[] transforms\n",
      {"geometry_msgs/TransformStamped", "std_msgs/Header", "builtin_interfaces/Time",

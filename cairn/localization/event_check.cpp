@@ -1,5 +1,7 @@
 #include "cairn/localization/event_check.hpp"
 
+#include "cairn/sensing/defect.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -50,6 +52,18 @@ const char* payload_defect(Time stamp, const std::shared_ptr<const LaserScan>& s
   };
   if (std::none_of(scan->ranges_m.begin(), scan->ranges_m.end(), sound)) return "has no valid range";
   return nullptr;
+}
+
+const char* payload_defect(Time stamp, const ImuYawRate& rate) {
+  if (const char* what = stamp_defect(stamp, rate.stamp)) return what;
+  return defect_of(rate);
+}
+
+template <class Measurement>
+const char* payload_defect(Time stamp, const std::shared_ptr<const Measurement>& measurement) {
+  if (!measurement) return "is missing";
+  if (const char* what = stamp_defect(stamp, measurement->stamp)) return what;
+  return defect_of(*measurement);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "cairn/localization/event_check.hpp"
 
+#include "every_sensor.hpp"
 #include "small_room.hpp"
 
 #include <limits>
@@ -93,6 +94,20 @@ TEST(EventCheck, RefusesStampsWhoseDifferencesOverflow) {
     const Event event{stamp, stamp, 0, Odometry{stamp, {}}};
     EXPECT_THAT(defect(event), HasSubstr("146 years"));
   }
+}
+
+TEST(EventCheck, CoversEverySensor) {
+  for (const Event& event : test::every_sensor().events) {
+    EXPECT_THAT(defect(event), IsNull()) << name_of(kind_of(event));
+    Event late = event;
+    late.stamp += Duration(1);
+    EXPECT_THAT(defect(late), HasSubstr("not its event's")) << name_of(kind_of(event));
+  }
+  const Time t = test::at(1.0);
+  EXPECT_THAT(defect({t, t, 0, std::shared_ptr<const WifiScan>()}), HasSubstr("missing"));
+  EXPECT_THAT(defect({t, t, 0, std::make_shared<const CeilingPatch>(CeilingPatch{t, 1, 1, 0.0, {1}})}),
+              HasSubstr("scale"));
+  EXPECT_THAT(defect({t, t, 0, ImuYawRate{t, kNan}}), HasSubstr("rate"));
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ Outcome FusionLocalizer::process(const Event& event) {
 
 Outcome FusionLocalizer::take(const Event& event) {
   const bool odometry = std::holds_alternative<Odometry>(event.payload);
-  const bool bound = odometry ? event.stream == odometry_stream_ : belief_.binds(event.stream);
+  const bool bound = odometry ? event.stream == odometry_stream_ : belief_.binds(event);
   if (!bound) return Outcome::kDroppedUnboundStream;
   if (const char* what = defect(event)) {
     warn(odometry ? "malformed odometry" : "malformed scan", event, what);

@@ -1,6 +1,7 @@
 #include "cairn/localization/monte_carlo_localizer.hpp"
 
 #include "cairn/core/errors.hpp"
+#include "every_sensor.hpp"
 #include "small_room.hpp"
 
 #include <limits>
@@ -255,6 +256,22 @@ TEST_F(MonteCarloLocalizerTest, AnEventOfTheOtherKindIsNotBound) {
   EXPECT_EQ(localizer_->process(odometry_event(1.0, {}, 1)), Outcome::kDroppedUnboundStream);
   EXPECT_EQ(localizer_->process(scan_event(scan_from(map_, kStart, at(1)), 0)),
             Outcome::kDroppedUnboundStream);
+}
+
+TEST_F(MonteCarloLocalizerTest, SensorsWithoutAModelEndInACountedOutcome) {
+  make();
+  odometry(0.0);
+  scan(1.0);
+  std::int64_t unbound = 0;
+  for (Event event : test::every_sensor().events) {
+    if (kind_of(event) == StreamKind::kOdometry || kind_of(event) == StreamKind::kLaserScan) continue;
+    for (const StreamId stream : {StreamId{0}, StreamId{1}}) {
+      event.stream = stream;
+      EXPECT_EQ(localizer_->process(event), Outcome::kDroppedUnboundStream) << name_of(kind_of(event));
+      unbound += stream == 1 ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(count(Outcome::kDroppedUnboundStream), unbound);
 }
 
 TEST_F(MonteCarloLocalizerTest, AScanCountsOnce) {

@@ -43,7 +43,10 @@ class PoseBelief {
   };
   explicit PoseBelief(Parts parts);
 
-  bool binds(StreamId stream) const { return models_[stream] != nullptr; }
+  bool binds(const Event& event) const {
+    const auto& model = models_[event.stream];
+    return model != nullptr && model->kind() == kind_of(event);
+  }
 
   /// What applying a measurement came to.
   struct Application {
@@ -52,7 +55,7 @@ class PoseBelief {
   };
   /// Takes the belief to the measurement's stamp and, if it is worth it, weighs it. A measurement that does
   /// not inform only carries the belief on; it cannot begin one that may be anywhere.
-  /// @pre binds(event.stream)
+  /// @pre binds(event)
   Application apply(const Event& event, const OdometryTrack& odometry, const Scheduler& scheduler);
 
   bool started() const { return state_.started; }

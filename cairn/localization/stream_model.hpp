@@ -35,6 +35,9 @@ class StreamModel {
  public:
   virtual ~StreamModel() = default;
 
+  /// The only kind of measurement that the functions below may be given.
+  virtual StreamKind kind() const { return StreamKind::kLaserScan; }
+
   /// The measurement as a function of poses T_map_base alone. @param compact false while the belief is spread
   /// over several places: the likelihood has then to be as wide as the gaps between the particles
   virtual BoundUpdate<Pose2> bind(const Event::Payload& z, bool compact) const = 0;

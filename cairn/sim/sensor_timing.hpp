@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cairn/core/time.hpp"
-#include "cairn/sim/world_options.hpp"
+#include "cairn/sim/sensor_options.hpp"
 
 #include <cstdint>
 #include <vector>

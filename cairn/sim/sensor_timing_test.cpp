@@ -54,6 +54,21 @@ TEST(SensorTiming, AStallHoldsMessagesBack) {
   EXPECT_LT(held, 400U);
 }
 
+// A sixth of the time is out: what is lost comes in bursts, and nothing else is held up.
+TEST(SensorTiming, AnOutageLosesMessagesInBursts) {
+  const auto messages = timings({.rate_hz = 10.0, .outage_every_s = 10.0, .outage_s = 2.0}, 1000.0);
+  EXPECT_GT(messages.size(), 7000U);
+  EXPECT_LT(messages.size(), 9500U);
+  std::size_t gaps = 0;
+  for (std::size_t i = 1; i < messages.size(); ++i) {
+    const std::uint64_t missing = messages[i].index - messages[i - 1].index - 1;
+    gaps += missing > 0 ? 1 : 0;
+    EXPECT_TRUE(missing == 0 || missing >= 19) << missing;
+    EXPECT_EQ(messages[i].arrival, messages[i].measured);
+  }
+  EXPECT_GT(gaps, 40U);
+}
+
 TEST(SensorTiming, StreamsHaveFaultsOfTheirOwn) {
   const WorldTimingOptions options{.rate_hz = 10.0, .latency_jitter_s = 0.1};
   EXPECT_EQ(timings(options)[4].arrival, timings(options)[4].arrival);

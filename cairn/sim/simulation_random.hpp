@@ -18,6 +18,17 @@ enum class SimulationUse : std::uint8_t {
   kWalking = 7,
   kTiming = 8,
   kDelivery = 9,
+  kOutages = 10,
+  kSonarNoise = 11,
+  kDepthNoise = 12,
+  kWifiNoise = 13,
+  kBeaconNoise = 14,
+  kLandmarkNoise = 15,
+  kCeilingTexture = 16,
+  kCeilingNoise = 17,
+  kGyroscopeBias = 18,
+  kGyroscopeNoise = 19,
+  kShadowing = 20,
 };
 
 /// Random numbers of one use, at one step of it (a scan, an odometry increment).

@@ -2,8 +2,10 @@
 
 #include "cairn/core/errors.hpp"
 #include "cairn/maps/wall_drawing.hpp"
+#include "cairn/sim/sensor_check.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -14,15 +16,19 @@ namespace {
 constexpr double kPlanningResolution_m = 0.05;
 // A cell's centre is up to half a diagonal nearer than what was drawn into it.
 constexpr double kPlanningSlack_m = 0.04;
-constexpr double kMostRanges = 2e9;
 
 struct Walls {
   std::vector<Wall> solid;
+  std::vector<HeightSpan> spans;  // of the solid ones
   std::vector<Wall> map;
+  double ceiling_m;
+
+  double top(double height_m) const { return height_m > 0.0 ? height_m : ceiling_m; }
 };
 
-void add(const Wall& wall, bool stands, bool on_map, Walls& walls) {
-  if (stands) walls.solid.push_back(wall);
+void add(const Wall& wall, const HeightSpan& span, bool on_map, Walls& walls) {
+  walls.solid.push_back(wall);
+  walls.spans.push_back(span);
   if (on_map) walls.map.push_back(wall);
 }
 
@@ -39,26 +45,32 @@ void add_wall(const WorldWallOptions& options, Walls& walls) {
   for (std::size_t i = 1; i < points.size(); ++i) {
     if (points[i - 1] == points[i])
       throw ConfigurationError(key, "names a point twice in a row", "remove one");
-    add({points[i - 1], points[i], material_named(options.material)}, true, options.on_map, walls);
+    add({points[i - 1], points[i], material_named(options.material)}, {0.0, walls.top(options.height_m)},
+        options.on_map, walls);
   }
 }
 
-void add_box(const WorldBoxOptions& o, const Point2& center, bool stands, bool on_map, Walls& walls) {
+std::array<Wall, 4> sides_of(const WorldBoxOptions& o, const Point2& center) {
   const Pose2 T_map_box{center.x, center.y, o.yaw_rad};
   const double x = 0.5 * o.width_m, y = 0.5 * o.depth_m;
   const Point2 corners[] = {T_map_box * Point2{-x, -y}, T_map_box * Point2{x, -y}, T_map_box * Point2{x, y},
                             T_map_box * Point2{-x, y}};
-  for (int i = 0; i < 4; ++i) {
-    add({corners[i], corners[(i + 1) % 4], material_named(o.material)}, stands, on_map, walls);
-  }
+  const Material material = material_named(o.material);
+  std::array<Wall, 4> sides;
+  for (std::size_t i = 0; i < 4; ++i) sides[i] = {corners[i], corners[(i + 1) % 4], material};
+  return sides;
 }
 
-void add_furniture(const WorldBoxOptions& o, Walls& walls) {
+void add_furniture(const WorldBoxOptions& o, std::int32_t box, Walls& walls) {
   const std::string key = "furniture." + o.name;
   const Point2 center = parse_point(key + ".center", o.center);
-  if (o.was_at.empty()) return add_box(o, center, true, o.on_map, walls);
-  add_box(o, center, true, false, walls);
-  add_box(o, parse_point(key + ".was_at", o.was_at), false, o.on_map, walls);
+  const double top_m = walls.top(o.height_m);
+  if (top_m <= o.bottom_m)
+    throw ConfigurationError(key + ".bottom_m", "is not below its upper side", "correct it or height_m");
+  for (const Wall& side : sides_of(o, center))
+    add(side, {o.bottom_m, top_m, box}, o.on_map && o.was_at.empty(), walls);
+  if (o.was_at.empty() || !o.on_map) return;
+  for (const Wall& side : sides_of(o, parse_point(key + ".was_at", o.was_at))) walls.map.push_back(side);
 }
 
 WorldDoor make_door(const WorldDoorOptions& o, Walls& walls) {
@@ -66,7 +78,7 @@ WorldDoor make_door(const WorldDoorOptions& o, Walls& walls) {
   const Wall leaf{parse_point(key + ".from", o.from), parse_point(key + ".to", o.to), Material::kOpaque};
   if (leaf.a == leaf.b)
     throw ConfigurationError(key + ".to", "is where the door begins", "give the leaf a width");
-  add(leaf, false, o.on_map, walls);
+  if (o.on_map) walls.map.push_back(leaf);
   return {leaf, o.open_s, o.closed_s, o.phase_s};
 }
 
@@ -100,28 +112,6 @@ void check_enclosed(const OccupancyGrid& grid) {
     throw ConfigurationError("walls", "do not enclose robot.start: there is a way out", "close the outline");
 }
 
-void check_lasers(const WorldOptions& options) {
-  if (options.lasers.empty())
-    throw ConfigurationError("lasers", "is missing: the robot would be blind", "add a laser");
-  if (options.lasers.size() > 9) throw ConfigurationError("lasers", "are more than nine", "remove some");
-  const double duration_s = options.robot.duration_s > 0.0 ? options.robot.duration_s : 600.0;
-  for (const WorldLaserOptions& laser : options.lasers) {
-    const std::string key = "lasers." + laser.name;
-    const Pose2 mount = parse_world_pose(key + ".mount", laser.mount);
-    if (std::hypot(mount.x, mount.y) > options.robot.radius_m) {
-      throw ConfigurationError(key + ".mount", "sticks out of the robot, so that it would run into walls",
-                               "mount it within robot.radius_m");
-    }
-    if (laser.range_max_m <= laser.range_min_m) {
-      throw ConfigurationError(key + ".range_max_m", "is not above range_min_m", "correct one of them");
-    }
-    if (laser.timing.rate_hz * duration_s * laser.beams > kMostRanges) {
-      throw ConfigurationError(key + ".rate_hz", "and beams make more ranges than fit into memory",
-                               "use smaller ones");
-    }
-  }
-}
-
 OccupancyGrid draw(std::vector<Wall> walls, double resolution_m, const Pose2& start) {
   return draw_walls(VectorMap(std::move(walls)),
                     {.resolution_m = resolution_m, .seen = kAllMaterials, .inside = {{start.x, start.y}}});
@@ -135,24 +125,33 @@ bool WorldDoor::is_closed(double time_s) const {
 }
 
 World make_world(const WorldOptions& options, std::span<const Wall> floor) {
-  Walls walls{{floor.begin(), floor.end()}, {floor.begin(), floor.end()}};
+  const double ceiling_m = options.ceiling.height_m;
+  Walls walls{{floor.begin(), floor.end()},
+              std::vector<HeightSpan>(floor.size(), {0.0, ceiling_m}),
+              {floor.begin(), floor.end()},
+              ceiling_m};
   for (const WorldWallOptions& wall : options.walls) add_wall(wall, walls);
-  for (const WorldBoxOptions& box : options.furniture) add_furniture(box, walls);
+  for (std::size_t i = 0; i < options.furniture.size(); ++i)
+    add_furniture(options.furniture[i], static_cast<std::int32_t>(i), walls);
   std::vector<WorldDoor> doors;
   for (const WorldDoorOptions& door : options.doors) doors.push_back(make_door(door, walls));
   if (walls.solid.empty() || walls.map.empty()) {
     throw ConfigurationError("walls", "is empty, or none is on the map",
                              "name walls, a built_in world, or a file");
   }
-  check_lasers(options);
+  check_sensors(options);
   const Pose2 start = parse_world_pose("robot.start", options.robot.start);
   check_start(options.robot, start, walls.solid);
   const OccupancyGrid planning = draw(walls.solid, kPlanningResolution_m, start);
   check_enclosed(planning);
   OccupancyGrid map = draw(walls.map, options.map_resolution_m, start);
-  return {options,          std::make_shared<const VectorMap>(std::move(walls.solid)),
-          std::move(map),   RoutePlanner(planning, options.robot.radius_m + kPlanningSlack_m),
-          std::move(doors), start};
+  return {options,
+          std::make_shared<const VectorMap>(std::move(walls.solid)),
+          std::move(walls.spans),
+          std::move(map),
+          RoutePlanner(planning, options.robot.radius_m + kPlanningSlack_m),
+          std::move(doors),
+          start};
 }
 
 }  // namespace cairn

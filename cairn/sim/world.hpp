@@ -22,11 +22,23 @@ struct WorldDoor {
   bool is_closed(double time_s) const;
 };
 
+/// From where to where something stands, metres above the floor.
+struct HeightSpan {
+  static constexpr std::int32_t kNoBox = -1;
+
+  double bottom_m = 0.0;
+  double top_m = 0.0;
+  std::int32_t box = kNoBox;  ///< index of the furniture that the wall is a side of
+
+  bool contains(double height_m) const { return height_m >= bottom_m && height_m <= top_m; }
+};
+
 /// A world that can be driven through: checked, and with everything that the simulation of robot and sensors
 /// needs.
 struct World {
   WorldOptions options;
   std::shared_ptr<const VectorMap> solid;  ///< all that stands, but doors and people
+  std::vector<HeightSpan> spans;           ///< of each wall of `solid`
   OccupancyGrid map;     ///< what the localizer is given: without people and what is not on_map
   RoutePlanner planner;  ///< for the robot, doors open
   std::vector<WorldDoor> doors;
@@ -37,8 +49,9 @@ struct World {
 /// @param floor  walls from the file that the options name, else none
 /// @throws ConfigurationError whose where() is the dotted key of what does not fit: a wall of fewer than two
 /// points, a
-///   closed one of fewer than three, floors that do not enclose the start, a start in a wall, lasers that
-///   stick out of the robot, no laser, a rate whose messages would not fit into memory
+///   closed one of fewer than three, floors that do not enclose the start, a start in a wall, a sensor that
+///   sticks out of the robot, no sensor, limits that enclose nothing, more messages than fit into memory, a
+///   radio or a detector without anything to find, a name that two sensors share
 World make_world(const WorldOptions& options, std::span<const Wall> floor = {});
 
 /// The options of a built-in world: "office" (another one for every seed), "cross" (15 m, fully symmetric),

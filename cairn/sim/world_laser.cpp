@@ -1,82 +1,36 @@
 #include "cairn/sim/world_laser.hpp"
 
-#include "cairn/maps/ray_casting.hpp"
 #include "cairn/sim/simulation_random.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace cairn {
 namespace {
 
 constexpr double kGlassReturns_rad = 0.1745;  // 10 degrees
-constexpr double kPassed_m = 1e-6;            // beyond a surface that let the beam through
-constexpr int kMostSurfaces = 12;
+constexpr int kMostSurfaces = 24;
 constexpr int kMostMirrors = 4;
 constexpr double kMeshReturns = 0.5;
 
-double cross(const Point2& a, const Point2& b) { return a.x * b.y - a.y * b.x; }
-double dot(const Point2& a, const Point2& b) { return a.x * b.x + a.y * b.y; }
-
-Point2 direction_of(const Wall& wall) {
-  const double length = std::hypot(wall.b.x - wall.a.x, wall.b.y - wall.a.y);
-  return {(wall.b.x - wall.a.x) / length, (wall.b.y - wall.a.y) / length};
-}
-
-double hit(const Point2& origin, const Point2& direction, const Wall& wall) {
-  const Point2 edge{wall.b.x - wall.a.x, wall.b.y - wall.a.y};
-  const Point2 to_wall{wall.a.x - origin.x, wall.a.y - origin.y};
-  const double denominator = cross(direction, edge);
-  if (denominator == 0.0) return std::numeric_limits<double>::infinity();
-  const double along = cross(to_wall, direction) / denominator;
-  const double range = cross(to_wall, edge) / denominator;
-  return along >= 0.0 && along <= 1.0 && range >= 0.0 ? range : std::numeric_limits<double>::infinity();
-}
-
-double hit(const Point2& origin, const Point2& direction, const Cylinder& person) {
-  const Point2 to{person.center.x - origin.x, person.center.y - origin.y};
-  const double aside = cross(direction, to), ahead = dot(direction, to);
-  if (ahead < 0.0 || std::abs(aside) > person.radius_m) return std::numeric_limits<double>::infinity();
-  return std::max(0.0, ahead - std::sqrt(person.radius_m * person.radius_m - aside * aside));
-}
-
-Point2 reflected(const Point2& direction, const Point2& along) {
-  const double s = 2.0 * dot(direction, along);
-  return {s * along.x - direction.x, s * along.y - direction.y};
-}
-
 }  // namespace
 
-BeamCaster::BeamCaster(const World& world, const WallGrid& walls, const People& people, double time_s)
-    : walls_(walls), people_(people.at(time_s)) {
-  for (const WorldDoor& door : world.doors) {
-    if (door.is_closed(time_s)) closed_doors_.push_back(door.leaf);
-  }
-}
+BeamCaster::BeamCaster(const World& world, const WallGrid& walls, const People& people, double time_s,
+                       double height_m)
+    : scene_(world, walls, people, time_s), height_m_(height_m) {}
 
-std::optional<BeamCaster::Surface> BeamCaster::nearest(const Point2& origin, const Point2& direction,
-                                                       double max_range_m) const {
-  std::optional<Surface> found;
-  double range = max_range_m;
-  if (const RayHit wall = cast_ray(walls_, origin, direction, max_range_m)) {
-    const Wall& met = walls_.map().walls()[wall.wall];
-    range = wall.range_m;
-    found = Surface{range, direction_of(met), met.material};
+bool returns_light(const WorldScene::Surface& surface, double incidence_rad, double mesh_draw) {
+  switch (surface.material) {
+    case Material::kOpaque:
+      return true;
+    case Material::kGlass:
+      return incidence_rad <= kGlassReturns_rad;
+    case Material::kMesh:
+      return mesh_draw < kMeshReturns;
+    case Material::kMirror:
+      return false;
   }
-  for (const Wall& door : closed_doors_) {
-    const double at = hit(origin, direction, door);
-    if (at >= range) continue;
-    range = at;
-    found = Surface{at, direction_of(door), Material::kOpaque};
-  }
-  for (const Cylinder& person : people_) {
-    const double at = hit(origin, direction, person);
-    if (at >= range) continue;
-    range = at;
-    found = Surface{at, {-direction.y, direction.x}, Material::kOpaque};  // clothes return at any angle
-  }
-  return found;
+  return false;
 }
 
 std::optional<BeamCaster::Return> BeamCaster::cast(const Point2& origin, double angle_rad, double max_range_m,
@@ -86,19 +40,18 @@ std::optional<BeamCaster::Return> BeamCaster::cast(const Point2& origin, double 
   double travelled = 0.0;
   int mirrors = 0;
   for (int surface = 0; surface < kMostSurfaces && travelled < max_range_m; ++surface) {
-    const auto met = nearest(at, direction, max_range_m - travelled);
+    const auto met = scene_.nearest(at, direction, max_range_m - travelled);
     if (!met) return std::nullopt;
-    const double incidence = std::acos(std::min(1.0, std::abs(cross(direction, met->along))));
-    const bool is_mirror = met->material == Material::kMirror;
-    const bool returns = met->material == Material::kOpaque ||
-                         (met->material == Material::kGlass && incidence <= kGlassReturns_rad) ||
-                         (met->material == Material::kMesh && mesh_draw < kMeshReturns);
-    if (returns) return Return{travelled + met->range_m, incidence};
+    const double incidence = met->incidence_rad(direction);
+    const bool is_there = met->span.contains(height_m_);
+    const bool is_mirror = is_there && met->material == Material::kMirror;
+    if (is_there && returns_light(*met, incidence, mesh_draw))
+      return Return{travelled + met->range_m, incidence};
     if (is_mirror && ++mirrors > kMostMirrors) return std::nullopt;
     at = {at.x + met->range_m * direction.x, at.y + met->range_m * direction.y};
     if (is_mirror) direction = reflected(direction, met->along);
-    at = {at.x + kPassed_m * direction.x, at.y + kPassed_m * direction.y};
-    travelled += met->range_m + kPassed_m;
+    at = {at.x + WorldScene::kPassed_m * direction.x, at.y + WorldScene::kPassed_m * direction.y};
+    travelled += met->range_m + WorldScene::kPassed_m;
   }
   return std::nullopt;
 }
@@ -135,7 +88,7 @@ LaserScan simulate_world_scan(const World& world, const WallGrid& walls, const P
   scan.range_min_m = o.range_min_m;
   scan.range_max_m = o.range_max_m;
   scan.ranges_m.reserve(static_cast<std::size_t>(o.beams));
-  const BeamCaster caster(world, walls, people, to_seconds(measured));
+  const BeamCaster caster(world, walls, people, to_seconds(measured), o.height_m);
   const RandomStream random =
       simulation_random(seed, SimulationUse::kLaserNoise, step_of_stream(stream, index));
   const Pose2 T_base_laser = parse_world_pose("mount", o.mount);

@@ -5,17 +5,25 @@
 #include "cairn/sensing/laser_scan.hpp"
 #include "cairn/sim/people.hpp"
 #include "cairn/sim/world.hpp"
+#include "cairn/sim/world_scene.hpp"
 
 #include <cstdint>
 #include <optional>
 
 namespace cairn {
 
+/// True where a surface sends light back to where it came from: glass within 10 degrees of its normal, mesh
+/// for every other number drawn, a mirror never.
+/// @param mesh_draw  uniform number that decides at meshes
+bool returns_light(const WorldScene::Surface& surface, double incidence_rad, double mesh_draw);
+
 /// What a laser beam meets in a world at one instant: walls, closed doors and people.
 class BeamCaster {
  public:
   /// @param walls  of world.solid, for all materials
-  BeamCaster(const World& world, const WallGrid& walls, const People& people, double time_s);
+  /// @param height_m  of the beams above the floor: what is lower, or hangs above, is not met
+  BeamCaster(const World& world, const WallGrid& walls, const People& people, double time_s,
+             double height_m = 0.3);
 
   struct Return {
     double range_m = 0.0;  ///< along the beam, mirrors included
@@ -28,16 +36,8 @@ class BeamCaster {
                              double mesh_draw) const;
 
  private:
-  struct Surface {
-    double range_m;
-    Point2 along;  ///< unit vector along the surface
-    Material material;
-  };
-  std::optional<Surface> nearest(const Point2& origin, const Point2& direction, double max_range_m) const;
-
-  const WallGrid& walls_;
-  std::vector<Wall> closed_doors_;
-  std::vector<Cylinder> people_;
+  WorldScene scene_;
+  double height_m_;
 };
 
 /// The scan that a laser of the options takes from `measured` on. While the laser sweeps the robot moves on:

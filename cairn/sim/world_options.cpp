@@ -2,6 +2,7 @@
 
 #include "cairn/core/angle.hpp"
 #include "cairn/core/errors.hpp"
+#include "cairn/sim/option_tables.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -12,6 +13,7 @@ namespace {
 
 constexpr double kFar_m = 1e5;
 constexpr Range kSize{1e-3, 1e4};
+constexpr Range kHeight{0.0, 1000.0};
 constexpr Range kShare{0.0, 1.0};
 constexpr Range kSeconds{0.0, 1e9};
 constexpr Range kRate{0.01, 1000.0};
@@ -37,20 +39,6 @@ std::vector<double> parse_numbers(const std::string& key, const std::string& tex
                              std::string("write ") + form + " (m, rad)");
   }
   return numbers;
-}
-
-template <typename Entry>
-void visit_table(OptionVisitor& visitor, const OptionVisitor::Field& field, std::vector<Entry>& entries) {
-  std::vector<std::string> present;
-  present.reserve(entries.size());
-  for (const Entry& entry : entries) present.push_back(entry.name);
-  visitor.table(field, present, [&entries](const std::string& key, OptionVisitor& inner) {
-    for (Entry& entry : entries) {
-      if (entry.name == key) return entry.visit(inner);
-    }
-    entries.emplace_back().name = key;
-    entries.back().visit(inner);
-  });
 }
 
 }  // namespace
@@ -79,6 +67,7 @@ void WorldWallOptions::visit(OptionVisitor& v) {
       {"material", "glass returns near-normal beams only, mesh every other, a mirror shows another place"},
       material, kMaterials);
   v.flag({"on_map", "Known to the localizer"}, on_map);
+  v.number({"height_m", "0: up to the ceiling"}, height_m, kHeight);
 }
 
 void WorldBoxOptions::visit(OptionVisitor& v) {
@@ -89,6 +78,8 @@ void WorldBoxOptions::visit(OptionVisitor& v) {
   v.choice({"material", "As of walls"}, material, kMaterials);
   v.flag({"on_map", "Known to the localizer"}, on_map);
   v.text({"was_at", "Centre x,y where the map shows it, if it was moved since"}, was_at);
+  v.number({"bottom_m", "Of its lower side above the floor"}, bottom_m, kHeight);
+  v.number({"height_m", "Of its upper side above the floor; 0: up to the ceiling"}, height_m, kHeight);
 }
 
 void WorldDoorOptions::visit(OptionVisitor& v) {
@@ -108,6 +99,7 @@ void WorldPeopleOptions::visit(OptionVisitor& v) {
   v.number({"crowd_to_s", "When they leave"}, crowd_to_s, kSeconds);
   v.number({"crowd_distance_m", "Their distance from the robot's centre"}, crowd_distance_m, {0.3, 10.0});
   v.number({"radius_m", "Of a person"}, radius_m, {0.01, 2.0});
+  v.number({"height_m", "Of a person"}, height_m, {0.1, 3.0});
   v.number({"speed_mps", "Mean speed of walking"}, speed_mps, {0.05, 5.0});
 }
 
@@ -151,20 +143,9 @@ void WorldRobotOptions::visit(OptionVisitor& v) {
   v.section({"odometry", "What the wheels tell"}, [this](OptionVisitor& inner) { odometry.visit(inner); });
 }
 
-void WorldTimingOptions::visit(OptionVisitor& v) {
-  v.number({"rate_hz", "Measurements per second"}, rate_hz, kRate);
-  v.number({"jitter_s", "Standard deviation of the measuring time"}, jitter_s, {0.0, 10.0});
-  v.number({"latency_s", "From measuring to arrival"}, latency_s, {0.0, 10.0});
-  v.number({"latency_jitter_s", "Mean of what is added to the latency (exponential)"}, latency_jitter_s,
-           {0.0, 10.0});
-  v.number({"clock_offset_s", "Added to its stamps"}, clock_offset_s, {-10.0, 10.0});
-  v.number({"lost_share", "Share of messages that never arrive"}, lost_share, kShare);
-  v.number({"stall_every_s", "Mean time between stalls; 0: none"}, stall_every_s, kSeconds);
-  v.number({"stall_s", "What is measured in a stall arrives at its end"}, stall_s, {0.0, 9.0});
-}
-
 void WorldLaserOptions::visit(OptionVisitor& v) {
   v.text({"mount", "Pose x,y,yaw on the robot's base"}, mount);
+  v.number({"height_m", "Of its plane above the floor"}, height_m, kHeight);
   timing.visit(v);
   v.number({"field_of_view_rad", "Symmetric about its x axis"}, field_of_view_rad, {0.01, kTwoPi});
   v.integer({"beams", "The first and the last lie on the edges"}, beams, {2.0, 100'000.0});
@@ -191,7 +172,19 @@ void WorldOptions::visit(OptionVisitor& v) {
   visit_table(v, {"doors", "By name"}, doors);
   v.section({"people", "Not on the map"}, [this](OptionVisitor& inner) { people.visit(inner); });
   v.section({"robot", "How it drives"}, [this](OptionVisitor& inner) { robot.visit(inner); });
+  v.section({"ceiling", "What hangs above"}, [this](OptionVisitor& inner) { ceiling.visit(inner); });
+  v.section({"radio", "How levels fall off"}, [this](OptionVisitor& inner) { radio.visit(inner); });
+  visit_table(v, {"access_points", "Of WiFi, by name (their id)"}, access_points);
+  visit_table(v, {"beacons", "By name (their id)"}, beacons);
+  visit_table(v, {"landmarks", "By name"}, landmarks);
   visit_table(v, {"lasers", "By name, in the order of the log's streams"}, lasers);
+  visit_table(v, {"sonars", "Rings, by name"}, sonars);
+  visit_table(v, {"depth_cameras", "By name"}, depth_cameras);
+  visit_table(v, {"wifi_radios", "By name"}, wifi_radios);
+  visit_table(v, {"beacon_radios", "By name"}, beacon_radios);
+  visit_table(v, {"landmark_detectors", "By name"}, landmark_detectors);
+  visit_table(v, {"ceiling_cameras", "By name"}, ceiling_cameras);
+  visit_table(v, {"gyroscopes", "By name"}, gyroscopes);
 }
 
 }  // namespace cairn

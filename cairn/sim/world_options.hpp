@@ -2,6 +2,7 @@
 
 #include "cairn/core/options.hpp"
 #include "cairn/core/pose2.hpp"
+#include "cairn/sim/sensor_options.hpp"
 
 #include <string>
 #include <vector>
@@ -17,12 +18,14 @@ struct WorldWallOptions {
   std::string points;
   bool closed = false;  ///< also from the last point to the first
   std::string material = "opaque";
-  bool on_map = true;  ///< known to the localizer
+  bool on_map = true;     ///< known to the localizer
+  double height_m = 0.0;  ///< 0: up to the ceiling
 
   void visit(OptionVisitor& visitor);
 };
 
-/// Furniture, a shelf, a pillar: an upright box that lasers see from outside.
+/// Furniture, a pillar, the board of a shelf: an upright box. Sensors see it from outside, those above it or
+/// below it only if they look up or down.
 struct WorldBoxOptions {
   std::string name;
   std::string center = "0,0";
@@ -31,7 +34,9 @@ struct WorldBoxOptions {
   double yaw_rad = 0.0;
   std::string material = "opaque";
   bool on_map = true;
-  std::string was_at;  ///< where the map shows it, if it was moved since: "x,y"
+  std::string was_at;     ///< where the map shows it, if it was moved since: "x,y"
+  double bottom_m = 0.0;  ///< above the floor
+  double height_m = 0.0;  ///< of its upper side above the floor; 0: up to the ceiling
 
   void visit(OptionVisitor& visitor);
 };
@@ -57,6 +62,7 @@ struct WorldPeopleOptions {
   double crowd_to_s = 1e9;
   double crowd_distance_m = 0.9;
   double radius_m = 0.22;
+  double height_m = 1.75;
   double speed_mps = 1.1;
 
   void visit(OptionVisitor& visitor);
@@ -97,25 +103,12 @@ struct WorldRobotOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// When a sensor measures and when one hears of it.
-struct WorldTimingOptions {
-  double rate_hz = 10.0;
-  double jitter_s = 0.0;          ///< standard deviation of the measuring time, at most 0.3 periods
-  double latency_s = 0.0;         ///< from measuring to arrival
-  double latency_jitter_s = 0.0;  ///< mean of what is added to it (exponential)
-  double clock_offset_s = 0.0;    ///< of the sensor's clock: added to its stamps
-  double lost_share = 0.0;        ///< of messages that never arrive
-  double stall_every_s = 0.0;     ///< mean time between stalls; 0: none
-  double stall_s = 1.0;           ///< what is measured in a stall arrives at its end
-
-  void visit(OptionVisitor& visitor);
-};
-
 /// A planar laser, or (with a narrow field of view and a short range) a depth camera whose points are
-/// flattened into a scan.
+/// flattened into a scan; depth_cameras give whole images.
 struct WorldLaserOptions {
   std::string name;
   std::string mount = "0,0,0";  ///< T_base_sensor
+  double height_m = 0.3;        ///< of its plane above the floor
   WorldTimingOptions timing;
   double field_of_view_rad = 4.71238898038469;
   int beams = 361;
@@ -141,7 +134,19 @@ struct WorldOptions {
   std::vector<WorldDoorOptions> doors;
   WorldPeopleOptions people;
   WorldRobotOptions robot;
+  WorldCeilingOptions ceiling;
+  WorldRadioOptions radio;
+  std::vector<WorldTransmitterOptions> access_points;
+  std::vector<WorldTransmitterOptions> beacons;
+  std::vector<WorldLandmarkOptions> landmarks;
   std::vector<WorldLaserOptions> lasers;
+  std::vector<WorldSonarOptions> sonars;
+  std::vector<WorldDepthCameraOptions> depth_cameras;
+  std::vector<WorldWifiOptions> wifi_radios;
+  std::vector<WorldBeaconRadioOptions> beacon_radios;
+  std::vector<WorldLandmarkDetectorOptions> landmark_detectors;
+  std::vector<WorldCeilingCameraOptions> ceiling_cameras;
+  std::vector<WorldGyroscopeOptions> gyroscopes;
 
   void visit(OptionVisitor& visitor);
 };

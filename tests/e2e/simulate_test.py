@@ -4,6 +4,8 @@
 usage: tests/e2e/simulate_test.py CAIRN [unittest arguments]
 """
 
+import json
+import os
 import subprocess
 import sys
 import tempfile
@@ -11,6 +13,8 @@ import unittest
 from pathlib import Path
 
 OK, USAGE, BAD_INPUT = 0, 2, 3
+SOURCE = Path(__file__).resolve().parents[2]
+DATA = Path(os.environ.get("CAIRN_DATA", SOURCE.parent / "shared/data"))
 WORLD = """walls:
   outline:
     points: 0,0 8,0 8,6 0,6
@@ -73,6 +77,48 @@ class Simulate(unittest.TestCase):
         self.assertEqual(info.returncode, OK, info.stderr)
         self.assertIn("front", info.stdout)
 
+    def test_real_buildings_are_worlds(self):
+        for name, start in [("GHC7", "0,0,0"), ("NSH4", "20,30,0")]:
+            floor = DATA / "vector_maps" / f"{name}_vector.txt"
+            if not floor.exists():
+                self.skipTest(f"no {floor}")
+            text = f"file: {floor}\nmap_resolution_m: 0.1\nrobot: {{start: '{start}', mission: random, duration_s: 5}}\n"
+            self.assertEqual(self.world(text + "lasers: {front: {rate_hz: 5, beams: 90}}\n").returncode, OK)
+
+    def test_every_sensor_is_simulated_listed_and_replayed(self):
+        world = SOURCE / "configs/worlds/every_sensor.yaml"
+        small = ["--set", "depth_cameras.depth.width=64", "--set", "depth_cameras.depth.height=48"]
+        for threads in [1, 2, 7]:
+            result = self.simulate(world, "--duration", 8, "--threads", threads, "--out", f"s{threads}.mcap", *small)
+            self.assertEqual(result.returncode, OK, result.stderr)
+            self.assertEqual((self.folder / f"s{threads}.mcap").read_bytes(), (self.folder / "s1.mcap").read_bytes())
+        info = subprocess.run([PROGRAM, "log", "info", "s1.mcap", "--json"], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(info.returncode, OK, info.stderr)
+        summary = json.loads(info.stdout)
+        kinds = {stream["name"]: stream["kind"] for stream in summary["streams"]}
+        self.assertEqual(kinds, {"odom": "odometry", "front": "laser_scan", "rear": "laser_scan", "ring": "sonar_scan",
+                                 "depth": "depth_image", "wifi": "wifi_scan", "uwb": "beacon_ranges",
+                                 "marks": "landmark_detections", "up": "ceiling_patch", "gyro": "imu_yaw_rate"})
+        self.assertTrue(all(stream["messages"] > 0 for stream in summary["streams"]))
+        self.assertEqual(summary["warnings"], [])
+        localized = subprocess.run([PROGRAM, "localize", "--map", "s1.map.yaml", "--log", "s1.mcap", "--init", "2,3,0",
+                                    "--out", "run"], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(localized.returncode, OK, localized.stderr)
+        metrics = json.loads((self.folder / "run/metrics.json").read_text())
+        outcomes = metrics["outcomes"]
+        counts = {stream["name"]: stream["messages"] for stream in summary["streams"]}
+        for name in ["ring", "depth", "wifi", "uwb", "marks", "up", "gyro"]:
+            self.assertEqual(sum(outcomes[name].values()), counts[name])
+            self.assertEqual(len(outcomes[name]), 1, "all of them are unbound")
+        replayed = subprocess.run([PROGRAM, "replay", "run"], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(replayed.returncode, OK, replayed.stdout + replayed.stderr)
+
+    def test_carmen_text_cannot_hold_every_sensor(self):
+        result = self.simulate(SOURCE / "configs/worlds/every_sensor.yaml", "--duration", 2, "--out", "s.log")
+        self.assertEqual(result.returncode, USAGE)
+        self.assertIn(".mcap", result.stderr)
+        self.assertFalse((self.folder / "s.log").exists())
+
     def test_a_floor_from_a_file(self):
         (self.folder / "floor.txt").write_text("0,0,8,0\n8,0,8,6\n8,6,0,6\n0,6,0,0\n")
         text = "file: floor.txt\n" + WORLD[WORLD.index("robot:"):]
@@ -97,8 +143,43 @@ class Simulate(unittest.TestCase):
         self.refused("rate_hz: 10", "rate_hz: 1000\n    beams: 100000", "lasers.front.rate_hz", "memory")
         self.refused("lasers:\n  front:\n    rate_hz: 10\n", "", "lasers", "blind")
         self.refused("robot:", "robt:", "w.yaml:5:1", "'robot'")
+        self.refused("lasers:", "lidars:", "w.yaml:8:1", "'lasers'")
+        self.refused("lasers:", "sonars:\n  ring: {cone_rad: 9}\nlasers:", "w.yaml:9:20", "cone_rad")
+        self.refused("lasers:", "sonars:\n  ring: {rate_hz: 1e9}\nlasers:", "w.yaml:9:19", "rate_hz")
+        self.refused("lasers:", "sonars:\n  ring: {mount: '2,0,0'}\nlasers:", "w.yaml:9:10: sonars.ring.mount", "sticks out")
+        self.refused("lasers:", "sonars:\n  ring: {colour: red}\nlasers:", "w.yaml:9:10", "colour")
+        self.refused("lasers:", "wifi_radios:\n  wifi: {rate_hz: 1}\nlasers:", "w.yaml:9:3: wifi_radios.wifi", "access_points")
+        self.refused("lasers:", "gyroscopes:\n  front: {rate_hz: 1}\nlasers:", "gyroscopes.front", "lasers.front")
+        self.refused("lasers:", "access_points:\n  a: {at: here}\nlasers:", "access_points.a.at", "here")
+        self.refused("lasers:", "depth_cameras:\n  d: {height_m: 5}\nlasers:", "depth_cameras.d.height_m", "ceiling")
+        self.refused("closed: true", "closed: true\n    height_m: -2", "w.yaml:5:15", "height_m", "range")
         self.assertEqual(self.simulate("nowhere.yaml", "--out", "w.log").returncode, USAGE)
         self.assertEqual(self.simulate("office").returncode, USAGE)
+
+    def test_the_noise_of_the_wheels_is_learnt_back(self):
+        """What the simulator was told is found by `cairn tune odometry` within six of its standard errors (false alarm
+        below 1e-6 each)."""
+        settings = {"sigma_wheel_radius": 0, "sigma_wheel_base": 0, "sigma_per_sqrt_metre_m": 0.01,
+                    "sigma_per_sqrt_metre_rad": 0.008}
+        options = [word for key, value in settings.items() for word in ("--set", f"robot.odometry.{key}={value}")]
+        self.assertEqual(self.world(WORLD, "--duration", "200", *options).returncode, OK)
+        result = subprocess.run([PROGRAM, "tune", "odometry", "--log", "w.log", "--reference", "w.truth.tum", "--out",
+                                 "motion.yaml", "--world", "wheels.yaml"], cwd=self.folder, capture_output=True, text=True,
+                                timeout=120)
+        self.assertEqual(result.returncode, OK, result.stderr)
+        found = {line.split()[0]: (float(line.split()[1]), float(line.split()[3])) for line in result.stdout.splitlines()
+                 if "+-" in line}
+        for key, truth in {"distance_factor": 1, "turn_factor": 1, "drift_rad_per_m": 0, "sigma_per_sqrt_metre_m": 0.01,
+                           "sigma_per_sqrt_metre_rad": 0.008}.items():
+            value, error = found[key]
+            self.assertLess(abs(value - truth), 6 * error, key)
+        self.assertLess(found["sigma_per_sqrt_metre_m"][1], 0.002)
+        # Both files are read by the commands that they are for.
+        world = (self.folder / "wheels.yaml").read_text()
+        self.assertEqual(self.world(WORLD.replace("robot:\n", world[world.index("robot:"):])).returncode, OK)
+        localized = subprocess.run([PROGRAM, "localize", "--map", "w.map.yaml", "--log", "w.log", "--init", "1,1,0",
+                                    "--config", "motion.yaml", "--out", "run"], cwd=self.folder, capture_output=True)
+        self.assertEqual(localized.returncode, OK, localized.stderr)
 
 
 if __name__ == "__main__":

@@ -40,8 +40,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto transforms = ros2::decode_transforms(bytes);
     require(ros2::decode_transforms(ros2::encode_transforms(transforms)).size() == transforms.size());
   });
-  decode([&] { check_exact(StreamKind::kOdometry, bytes); });
-  decode([&] { check_exact(StreamKind::kLaserScan, bytes); });
+  for (std::size_t kind = 0; kind < kStreamKinds; ++kind)
+    decode([&] { check_exact(static_cast<StreamKind>(kind), bytes); });
   decode([&] {
     const Estimate estimate = exact::decode_estimate(bytes);
     require(!exact::first_difference(estimate, exact::decode_estimate(exact::encode(estimate))).has_value());

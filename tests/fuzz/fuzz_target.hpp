@@ -37,14 +37,12 @@ int read_stream(const std::uint8_t* data, std::size_t size, Read read) {
 /// What holds for every log, however bad the file was.
 inline void check(const Log& log) {
   for (const Event& event : log.events) {
-    const StreamKind kind = log.streams.at(event.stream).kind;
-    const bool is_scan = std::holds_alternative<std::shared_ptr<const LaserScan>>(event.payload);
-    if (is_scan != (kind == StreamKind::kLaserScan)) throw std::logic_error("an event of another kind");
-    if (is_scan) {
-      if (!std::get<std::shared_ptr<const LaserScan>>(event.payload)) throw std::logic_error("an empty scan");
-    } else if (!is_finite(std::get<Odometry>(event.payload).T_odom_base)) {
+    if (kind_of(event) != log.streams.at(event.stream).kind)
+      throw std::logic_error("an event of another kind");
+    if (!visit_payload(event, [](const auto&) {})) throw std::logic_error("an event that says nothing");
+    const auto* odometry = std::get_if<Odometry>(&event.payload);
+    if (odometry != nullptr && !is_finite(odometry->T_odom_base))
       throw std::logic_error("a pose that is not finite");
-    }
   }
 }
 
