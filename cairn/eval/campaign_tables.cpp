@@ -145,6 +145,27 @@ std::string groups_table(const CampaignReport& report) {
   return text;
 }
 
+bool is_length(const std::string& metric) {
+  return metric.size() > 2 && metric.compare(metric.size() - 2, 2, "_m") == 0;
+}
+
+// As the table of Biswas & Veloso, section 4: what a mean hides when a few runs of many go astray.
+std::string spread_table(const CampaignReport& report) {
+  std::string text;
+  for (const CampaignGroup& group : report.summary.groups) {
+    for (const std::string& metric : report.metrics) {
+      if (group.cells < 2 || !is_length(metric) || group.metrics.count(metric) == 0) continue;
+      const MetricStyle style = style_of(metric);
+      text += row({group.input, group.variant, style.label, format_metric(style, group.smallest.at(metric)),
+                   format_metric(style, group.median.at(metric)),
+                   format_metric(style, group.largest.at(metric))});
+    }
+  }
+  if (text.empty()) return text;
+  return "\nSmallest, median and largest of the runs:\n\n" +
+         row({"input", "variant", "metric", "min", "median", "max"}) + rule(3, 3) + text;
+}
+
 std::string p_text(double p) { return p < 0.001 ? "< 0.001" : format_metric({"", "", 1.0, 3}, p); }
 
 std::string comparisons_table(const CampaignReport& report) {
@@ -200,7 +221,7 @@ std::string to_markdown(const CampaignReport& report) {
   if (!report.about.empty()) text += report.about + (report.about.back() == '\n' ? "\n" : "\n\n");
   text += std::to_string(report.results.size()) + " of " + std::to_string(report.cells) +
           " runs. Means over the runs, in brackets the bootstrap 95 % interval of the mean.\n\n" +
-          groups_table(report);
+          groups_table(report) + spread_table(report);
   if (!report.summary.comparisons.empty()) {
     text += "\nDifference to `" + report.baseline +
             "` on the same input with the same seed (sign-flip test, two-sided):\n\n" +

@@ -53,6 +53,7 @@ TEST(CampaignTables, MarkdownShowsMeansAndDifferences) {
   EXPECT_THAT(text, HasSubstr("| input | variant | runs | drop_rate.laser [%] | ate_mean [cm] |"));
   EXPECT_THAT(text, HasSubstr("| a, b | old | 2 | 50.0 | 3.50 [3.00, 4.00] |"));
   EXPECT_THAT(text, HasSubstr("| a, b | new | 1 | 50.0 | 2.00 |"));
+  EXPECT_THAT(text, HasSubstr("| a, b | old | ate_mean [cm] | 3.00 | 3.50 | 4.00 |"));
   EXPECT_THAT(text, HasSubstr("| a, b | new | ate_mean [cm] | 1 | -1.00 | 1.000 |"));
 }
 

@@ -116,6 +116,7 @@ void add_accuracy(const Score& score, const Trajectory& reference, CellResult& r
   metrics["ate_median_m"] = position.median;
   metrics["ate_p95_m"] = position.p95;
   metrics["ate_max_m"] = position.max;
+  if (!score.ate.errors.empty()) metrics["final_error_m"] = score.ate.errors.back().position_m;
   metrics["heading_mean_rad"] = score.ate.heading_rad.mean;
   metrics["coverage"] = score.coverage;
   metrics["bad_share"] = score.lost.bad_share;

@@ -39,9 +39,10 @@ std::string to_json(const CellResult& result);
 CellResult cell_result_from_json(std::string_view text, const std::string& where);
 
 /// Accuracy as metrics of a cell, and its trace of at most 400 points: ate_mean_m, ate_rmse_m, ate_median_m,
-/// ate_p95_m, ate_max_m, heading_mean_rad, rpe_translation_m and rpe_rotation_rad (rms), coverage, bad_share
-/// (beyond 1 m or 45 degrees), lost (0 or 1), converged_s: after which the error stays below 1 m and 45
-/// degrees for at least 10 s or to the end (missing if that never happens).
+/// ate_p95_m, ate_max_m, final_error_m (of the last pose), heading_mean_rad, rpe_translation_m and
+/// rpe_rotation_rad (rms), coverage, bad_share (beyond 1 m or 45 degrees), lost (0 or 1), converged_s: after
+/// which the error stays below 1 m and 45 degrees for at least 10 s or to the end (missing if that never
+/// happens).
 void add_accuracy(const Score& score, const Trajectory& reference, CellResult& result);
 
 }  // namespace cairn

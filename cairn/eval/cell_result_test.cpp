@@ -79,6 +79,7 @@ TEST(CellResult, ConvergesWhereTheErrorStaysSmall) {
   // Good for three seconds only, then from second 20 on.
   const CellResult result = judged([](int t) { return (t < 5 || t > 7) && t < 20 ? 3.0 : 0.1; }, 100);
   EXPECT_DOUBLE_EQ(result.metrics.at("converged_s"), 20.0);
+  EXPECT_NEAR(result.metrics.at("final_error_m"), 0.1, 1e-12);
   EXPECT_EQ(result.metrics.at("lost"), 1.0);
   EXPECT_EQ(judged([](int) { return 3.0; }, 100).metrics.count("converged_s"), 0U);
 }
