@@ -41,16 +41,18 @@ Event moved(const Event& event, Duration later, const Pose2& T_new_old) {
   copy.arrival += later;
   std::visit(
       [&](auto& payload) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(payload)>, Odometry>) {
-          payload.stamp += later;
-          payload.T_odom_base = T_new_old * payload.T_odom_base;
-        } else {
+        if constexpr (requires { *payload; }) {
+          if (!payload) return;
           auto own = *payload;
           own.stamp += later;
           payload = std::make_shared<const decltype(own)>(std::move(own));
+        } else {
+          payload.stamp += later;
         }
       },
       copy.payload);
+  if (auto* odometry = std::get_if<Odometry>(&copy.payload))
+    odometry->T_odom_base = T_new_old * odometry->T_odom_base;
   return copy;
 }
 

@@ -39,8 +39,8 @@ struct LocalizeResult {
   /// One per scan that was used or not needed, or (live) one per moment: see LocalizeRequest::live.
   std::vector<Estimate> estimates;
   std::vector<HypothesisSnapshot> hypotheses;  ///< with every estimate
-  std::vector<ParticleSnapshot> snapshots;  ///< evenly spread over the run
-  std::vector<OutcomeCounts> outcomes;      ///< per stream of the log
+  std::vector<ParticleSnapshot> snapshots;     ///< evenly spread over the run
+  std::vector<OutcomeCounts> outcomes;         ///< per stream of the log
   Diagnostics diagnostics;
   std::int64_t updates = 0;
   bool interrupted = false;

@@ -17,15 +17,15 @@ namespace cairn::app {
 
 /// What `cairn localize --out DIR` leaves behind, file by file.
 struct RunData {
-  Trajectory trajectory;                     ///< trajectory.tum: T_map_base
-  std::vector<Estimate> estimates;           ///< estimate.csv: one row per estimate (LocalizeResult)
-  nlohmann::json metrics;                    ///< metrics.json: an object with at least "cairn_version"
-  std::string configuration;                 ///< config.yaml: the effective configuration
-  std::shared_ptr<const OccupancyGrid> map;  ///< map.yaml and map.png; may be absent (null)
+  Trajectory trajectory;                       ///< trajectory.tum: T_map_base
+  std::vector<Estimate> estimates;             ///< estimate.csv: one row per estimate (LocalizeResult)
+  nlohmann::json metrics;                      ///< metrics.json: an object with at least "cairn_version"
+  std::string configuration;                   ///< config.yaml: the effective configuration
+  std::shared_ptr<const OccupancyGrid> map;    ///< map.yaml and map.png; may be absent (null)
   std::vector<HypothesisSnapshot> hypotheses;  ///< hypotheses.csv; may be empty
-  std::vector<ParticleSnapshot> particles;   ///< particles.csv; may be empty
-  std::optional<Trajectory> reference;       ///< reference.tum; absent without a reference
-  bool recorded = false;                     ///< run.mcap: write_run finds it where prepare_recording said
+  std::vector<ParticleSnapshot> particles;     ///< particles.csv; may be empty
+  std::optional<Trajectory> reference;         ///< reference.tum; absent without a reference
+  bool recorded = false;                       ///< run.mcap: write_run finds it where prepare_recording said
 };
 
 /// Refuses an existing DIR that is not empty and holds no earlier run (a metrics.json of Cairn), and a DIR

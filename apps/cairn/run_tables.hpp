@@ -27,8 +27,8 @@ inline constexpr std::string_view kEstimateHeader =
     "stamp_s,x_m,y_m,theta_rad,var_x,cov_xy,cov_x_theta,var_y,cov_y_theta,var_theta,ess,particles,hypotheses,"
     "weight,quality,state,probability,explained,blocked,beyond,fit,innovation_m,entropy";
 
-/// Columns `kHypothesisHeader`: the rows of one stamp are the places of one instant, heaviest first; `place` is
-/// the same number as long as a place is followed.
+/// Columns `kHypothesisHeader`: the rows of one stamp are the places of one instant, heaviest first; `place`
+/// is the same number as long as a place is followed.
 std::string to_csv(const std::vector<HypothesisSnapshot>& snapshots);
 std::vector<HypothesisSnapshot> parse_hypotheses(std::string_view text, const std::string& name);
 inline constexpr std::string_view kHypothesisHeader =

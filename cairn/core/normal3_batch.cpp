@@ -20,11 +20,10 @@ using Words = hn::RebindToUnsigned<Floats>;
 using F = hn::Vec<Floats>;
 using W = hn::Vec<Words>;
 
-// Blocks are made in multiples of this: sixteen fill two vectors of 512 bits.
-constexpr std::size_t kBlocksAtOnce = 16;
 constexpr std::size_t kMostBlocks = 48;  // of 160 items, four to a block
 
-// The words of `blocks` blocks, rounded up to a multiple of kBlocksAtOnce, one block after the other.
+// The words of `blocks` blocks, one block after the other, rounded up to a multiple of sixteen: they fill two
+// vectors of 512 bits.
 void store_words(const PhiloxCounter first, const PhiloxKey key, std::size_t blocks,
                  std::uint32_t* HWY_RESTRICT words) {
 #if HWY_TARGET == HWY_SCALAR

@@ -41,7 +41,8 @@ struct ReportData {
 /// - path, reference: columns t, x, y, theta
 /// - belief: columns t, x, y, var_x, cov_xy, var_y, var_theta, ess, particles, hypotheses, weight, quality
 ///   and state (index into TrackingState), probability
-/// - hypotheses: t, and places: x, y, var_x, cov_xy, var_y, weight, age_s of each place in turn, heaviest first
+/// - hypotheses: t, and places: x, y, var_x, cov_xy, var_y, weight, age_s of each place in turn, heaviest
+/// first
 /// - series: columns t, v for each of sigma_x_m, sigma_y_m, sigma_position_m, sigma_theta_rad, ess,
 /// particles,
 ///   hypotheses, weight, quality, probability, and with a reference position_error_m, heading_error_rad

@@ -14,8 +14,8 @@ namespace {
 template <class AnyEstimate, class Visit>
 void for_each_field(AnyEstimate& estimate, Visit visit) {
   // A member that Estimate gains must be recorded, too: then this line no longer compiles.
-  auto& [stamp, T_map_base, covariance, ess, particles, hypotheses, weight, quality, belief_stamp,
-         T_map_odom, judgement] = estimate;
+  auto& [stamp, T_map_base, covariance, ess, particles, hypotheses, weight, quality, belief_stamp, T_map_odom,
+         judgement] = estimate;
   auto& [state, probability, explained, blocked, beyond, fit, innovation, entropy] = judgement;
   visit("stamp", stamp);
   visit("x", T_map_base.x);

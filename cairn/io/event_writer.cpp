@@ -27,6 +27,16 @@ std::string topic_of(std::string_view name) {
   return topic;
 }
 
+// What never moves needs no stamp.
+ros::StampedTransform mounted(const std::string& parent, const std::string& child,
+                              const ros::RigidTransform& T_parent_child) {
+  ros::StampedTransform mount;
+  mount.header.frame_id = parent;
+  mount.child_frame_id = child;
+  mount.T_parent_child = T_parent_child;
+  return mount;
+}
+
 std::optional<StreamId> stream_for_tf(const std::vector<StreamInfo>& streams, std::string_view wanted) {
   std::optional<StreamId> first;
   for (std::size_t i = 0; i < streams.size(); ++i) {
@@ -91,11 +101,7 @@ void EventWriter::add_mounts(const std::vector<StreamInfo>& streams) {
   for (std::size_t i = 0; i < streams.size(); ++i) {
     const auto& T_base_sensor = streams[i].T_base_sensor;
     if (!T_base_sensor || streams_[i].frame == kBaseFrame) continue;
-    ros::StampedTransform mount;
-    mount.header.frame_id = kBaseFrame;
-    mount.child_frame_id = streams_[i].frame;
-    mount.T_parent_child = ros2::rigid(*T_base_sensor);
-    mounts.push_back(std::move(mount));
+    mounts.push_back(mounted(kBaseFrame, streams_[i].frame, ros2::rigid(*T_base_sensor)));
   }
   add_static(mounts, {});
 }
@@ -111,9 +117,8 @@ void EventWriter::add_transducers(const SonarScan& scan, Time arrival, Stream& s
   if (std::exchange(stream.has_transducers, true)) return;
   std::vector<ros::StampedTransform> mounts;
   for (std::size_t i = 0; i < scan.T_sensor_transducer.size(); ++i)
-    mounts.push_back({{{}, stream.frame},
-                      ros2::transducer_frame(stream.frame, i),
-                      ros2::rigid(scan.T_sensor_transducer[i])});
+    mounts.push_back(mounted(stream.frame, ros2::transducer_frame(stream.frame, i),
+                             ros2::rigid(scan.T_sensor_transducer[i])));
   add_static(mounts, arrival);
 }
 

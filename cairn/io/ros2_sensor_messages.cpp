@@ -27,8 +27,8 @@ std::string encode_pixels(const ros::Header& header, int width, int height, std:
   return std::move(fields).bytes();
 }
 
-template <std::size_t kCount>
-void put_all(cdr::Writer& fields, const std::array<double, kCount>& values) {
+template <std::size_t Count>
+void put_all(cdr::Writer& fields, const std::array<double, Count>& values) {
   for (const double value : values) fields.number(value);
 }
 

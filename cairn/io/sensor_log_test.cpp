@@ -151,7 +151,8 @@ TEST(SensorLog, ASonarIsRangesOfRosOnTheirFrames) {
 }
 
 TEST(SensorLog, AnImuSaysWhatItDoesNotMeasure) {
-  cdr::Reader imu(first_messages(written(log_of_every_sensor())).at("/imu_yaw_rate"));
+  const auto messages = first_messages(written(log_of_every_sensor()));
+  cdr::Reader imu(messages.at("/imu_yaw_rate"));
   imu.number<std::int32_t>();
   imu.number<std::uint32_t>();
   imu.text();

@@ -122,9 +122,9 @@ TrackingState Monitor::state(const MonitorMemory& memory, const MonitorInput& in
 }
 
 std::string explain(const Judgement& j) {
-  const std::string seen = "the map explains " + percent(j.explained) + " of the beams, " +
-                           percent(j.blocked) + " end at something unknown in front of its walls, " +
-                           percent(j.beyond) + " pass through them";
+  std::string seen = "the map explains " + percent(j.explained) + " of the beams, " + percent(j.blocked) +
+                     " end at something unknown in front of its walls, " + percent(j.beyond) +
+                     " pass through them";
   switch (j.state) {
     case TrackingState::kTracking:
       return seen;

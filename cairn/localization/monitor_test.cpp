@@ -60,8 +60,8 @@ TEST_F(MonitorTest, OneBadScanIsNotEnough) {
 }
 
 TEST_F(MonitorTest, SeveralPlacesAreAmbiguous) {
-  places_ = {{Pose2{}, {}, 0.5, 1.0}, {Pose2{5, 0, 0}, {}, 0.5, 1.0}};
-  for (Hypothesis& p : places_) p.covariance.setIdentity() *= 1e-3;
+  const Eigen::Matrix3d narrow = 1e-3 * Eigen::Matrix3d::Identity();
+  places_ = {{Pose2{}, narrow, 0.5, 1.0}, {Pose2{5, 0, 0}, narrow, 0.5, 1.0}};
   const Judgement judgement = look(kUsual, 20);
   EXPECT_EQ(judgement.state, TrackingState::kAmbiguous);
   EXPECT_LE(judgement.probability, 0.5);

@@ -73,7 +73,7 @@ class RecoveryTest : public testing::Test {
     return recovery_.recover(memory, model, at(1.0), probability, filter_);
   }
 
-  Recovery recovery_{RecoveryOptions{}, 1};
+  Recovery recovery_{RecoveryOptions{.active = true}, 1};
   Listener filter_;
 };
 

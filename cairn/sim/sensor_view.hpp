@@ -32,7 +32,8 @@ struct SensorView {
 
   WorldScene scene() const { return {drive.world, drive.walls, drive.people, to_seconds(measured)}; }
 
-  Pose2 T_map_base() const {
+  /// T_map_base when it was measured.
+  Pose2 base_in_map() const {
     const Time t = std::clamp(measured, drive.truth.front().stamp, drive.truth.back().stamp);
     return *pose_at(drive.truth, t);
   }

@@ -45,7 +45,7 @@ double ceiling_gray(const WorldCeilingOptions& o, const Point2& point) {
 CeilingPatch simulate_ceiling(const SensorView& view, const WorldCeilingCameraOptions& o) {
   const WorldCeilingOptions& ceiling = view.drive.world.options.ceiling;
   const RandomStream random = view.random(SimulationUse::kCeilingNoise);
-  const Pose2 T_map_sensor = view.T_map_base() * parse_world_pose("mount", o.mount);
+  const Pose2 T_map_sensor = view.base_in_map() * parse_world_pose("mount", o.mount);
   const double scale = o.side_m / o.pixels;
   const double middle = 0.5 * (o.pixels - 1);
   CeilingPatch patch{view.stamp, o.pixels, o.pixels, scale, {}};

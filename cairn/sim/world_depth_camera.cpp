@@ -118,7 +118,7 @@ PinholeIntrinsics intrinsics_of(const WorldDepthCameraOptions& o) {
 DepthImage simulate_depth_image(const SensorView& view, const WorldDepthCameraOptions& o) {
   const WorldScene scene = view.scene();
   const RandomStream random = view.random(SimulationUse::kDepthNoise);
-  const Pose2 T_map_camera = view.T_map_base() * parse_world_pose("mount", o.mount);
+  const Pose2 T_map_camera = view.base_in_map() * parse_world_pose("mount", o.mount);
   const PinholeIntrinsics k = intrinsics_of(o);
   const auto width = static_cast<std::size_t>(o.width), height = static_cast<std::size_t>(o.height);
   const std::uint32_t mesh_items =

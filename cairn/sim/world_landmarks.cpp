@@ -62,7 +62,7 @@ LandmarkDetections simulate_landmarks(const SensorView& view, const WorldLandmar
                                       std::span<const PlacedLandmark> landmarks) {
   const WorldScene scene = view.scene();
   const RandomStream random = view.random(SimulationUse::kLandmarkNoise);
-  const Pose2 T_map_sensor = view.T_map_base() * parse_world_pose("mount", o.mount);
+  const Pose2 T_map_sensor = view.base_in_map() * parse_world_pose("mount", o.mount);
   LandmarkDetections seen{view.stamp, o.range_max_m, o.field_of_view_rad, {}};
   for (std::uint32_t i = 0; i < landmarks.size(); ++i) {
     const Point2 in_sensor = inverse(T_map_sensor) * landmarks[i].at;

@@ -26,7 +26,7 @@ double delay_m(int walls, double mean_m, const RandomStream& random, std::uint32
 }
 
 Point2 receiver_of(const SensorView& view, const std::string& mount) {
-  const Pose2 pose = view.T_map_base() * parse_world_pose("mount", mount);
+  const Pose2 pose = view.base_in_map() * parse_world_pose("mount", mount);
   return {pose.x, pose.y};
 }
 

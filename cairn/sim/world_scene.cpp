@@ -29,7 +29,8 @@ double hit(const Point2& origin, const Point2& direction, const Wall& wall) {
   return along >= 0.0 && along <= 1.0 && range >= 0.0 ? range : std::numeric_limits<double>::infinity();
 }
 
-// Where a ray comes in: one that begins within a person, having gone through the surface, meets nothing more of it.
+// Where a ray comes in: one that begins within a person, having gone through the surface, meets nothing more
+// of it.
 double hit(const Point2& origin, const Point2& direction, const Cylinder& person) {
   const Point2 to{person.center.x - origin.x, person.center.y - origin.y};
   const double aside = cross(direction, to), ahead = dot(direction, to);

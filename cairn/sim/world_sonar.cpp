@@ -57,7 +57,7 @@ std::optional<double> sonar_echo(const WorldScene& scene, const WorldSonarOption
 SonarScan simulate_sonar(const SensorView& view, const WorldSonarOptions& o) {
   const WorldScene scene = view.scene();
   const RandomStream random = view.random(SimulationUse::kSonarNoise);
-  const Pose2 T_map_sensor = view.T_map_base() * parse_world_pose("mount", o.mount);
+  const Pose2 T_map_sensor = view.base_in_map() * parse_world_pose("mount", o.mount);
   SonarScan scan{view.stamp, o.range_min_m, o.range_max_m, o.cone_rad, {}, {}};
   for (int i = 0; i < o.transducers; ++i) {
     const Pose2 T_sensor_ring{0.0, 0.0, normalize_angle(kTwoPi * i / o.transducers)};

@@ -44,7 +44,7 @@ HWY_INLINE D normalized(D angle) {
 }
 
 // A vector of states, their doubles one after the other.
-template <bool kAside>
+template <bool Aside>
 HWY_INLINE void move_vector(const NoisyMove& m, double* states, const MoveNoise& noise, std::size_t i) {
   const Doubles d;
   const hn::Rebind<float, Doubles> df;
@@ -58,7 +58,7 @@ HWY_INLINE void move_vector(const NoisyMove& m, double* states, const MoveNoise&
   const D along = noisy(m.drive, m.sigma_drive, noise.drive);
   const auto [s, c] = sine_cosine(d, heading);
   D new_x = hn::Add(x, hn::Mul(c, along)), new_y = hn::Add(y, hn::Mul(s, along));
-  if constexpr (kAside) {
+  if constexpr (Aside) {
     const D across = noisy(m.aside, m.sigma_aside, noise.aside);
     new_x = hn::Sub(new_x, hn::Mul(s, across));
     new_y = hn::Add(new_y, hn::Mul(c, across));
@@ -67,15 +67,15 @@ HWY_INLINE void move_vector(const NoisyMove& m, double* states, const MoveNoise&
   hn::StoreInterleaved3(new_x, new_y, new_theta, d, states);
 }
 
-template <bool kAside>
+template <bool Aside>
 HWY_INLINE void move_all(const NoisyMove& move, double* states, std::size_t count, const MoveNoise& noise) {
   constexpr std::size_t kLanes = hn::MaxLanes(Doubles());
   std::size_t i = 0;
-  for (; i + kLanes <= count; i += kLanes) move_vector<kAside>(move, states + 3 * i, noise, i);
+  for (; i + kLanes <= count; i += kLanes) move_vector<Aside>(move, states + 3 * i, noise, i);
   if (i == count) return;
   double rest[3 * kLanes] = {};
   std::copy_n(states + 3 * i, 3 * (count - i), rest);
-  move_vector<kAside>(move, rest, noise, i);
+  move_vector<Aside>(move, rest, noise, i);
   std::copy_n(rest, 3 * (count - i), states + 3 * i);
 }
 

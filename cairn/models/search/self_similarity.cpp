@@ -141,6 +141,18 @@ class AlternativeFinder {
     return distinct(std::move(found));
   }
 
+  /// Those of `T_other_own` (other pose = T_other_own * pose) that explain the scan of this heading, too.
+  std::vector<Alternative> confirm(std::size_t position, std::size_t heading,
+                                   const std::vector<Pose2>& T_other_own) const {
+    std::vector<Alternative> found;
+    for (const Pose2& T : T_other_own) {
+      const Alternative best =
+          climb(scans_, position, heading, T * scans_.pose(position, heading), 0.5 * index_.spacing_m());
+      if (best.log_ratio >= -options_.margin) found.push_back(best);
+    }
+    return distinct(std::move(found));
+  }
+
  private:
   bool known(const std::vector<Pose2>& poses, const Pose2& pose) const {
     return std::any_of(poses.begin(), poses.end(), [&](const Pose2& p) { return !apart(p, pose, options_); });
@@ -201,54 +213,74 @@ class Neighbourhood {
   std::vector<std::pair<Square, std::size_t>> squares_;
 };
 
+/// Whether a scan taken at a position, in whatever heading, tells apart two poses of which one is at
+/// T_other_own times the other. What is known of the other pose is only as good as the last scans made it:
+/// T_other_own follows what is seen here, as a belief would.
+bool told_apart(const ExpectedScans& scans, std::size_t position, const SelfSimilarityOptions& options,
+                Pose2& T_other_own) {
+  for (std::size_t h = 0; h < scans.headings(); ++h) {
+    const Pose2 own = scans.pose(position, h);
+    const Alternative best = climb(scans, position, h, T_other_own * own, 0.25 * options.apart_m);
+    if (best.log_ratio < -options.margin) return true;
+    T_other_own = best.T_map_sensor * inverse(own);
+  }
+  return false;
+}
+
 /// Shortest drive (Dijkstra 1959) to a position where a scan tells two poses apart that move alike.
 double shortest_resolving_drive(std::size_t from, const Pose2& T_other_own, const ExpectedScans& scans,
                                 const Neighbourhood& beside, const SelfSimilarityOptions& options) {
   using Reached = std::pair<double, std::size_t>;
   std::priority_queue<Reached, std::vector<Reached>, std::greater<>> open;
   std::vector<double> driven(scans.positions(), kNever);
-  const auto tells = [&](std::size_t position) {
-    for (std::size_t h = 0; h < scans.headings(); ++h) {
-      const Pose2 other = T_other_own * scans.pose(position, h);
-      // The other pose is known as well as the search left it, and a belief would follow what it sees.
-      if (scans.log_ratio(position, h, other) < -options.margin &&
-          climb(scans, position, h, other, 0.5 * options.apart_m / 2.0).log_ratio < -options.margin)
-        return true;
-    }
-    return false;
-  };
+  std::vector<Pose2> followed(scans.positions());
   driven[from] = 0.0;
+  followed[from] = T_other_own;
   open.emplace(0.0, from);
   while (!open.empty()) {
     const auto [so_far, position] = open.top();
     open.pop();
     if (so_far > driven[position]) continue;
-    if (tells(position)) return so_far;
+    if (told_apart(scans, position, options, followed[position])) return so_far;
     beside.for_each_beside(position, [&](std::size_t next, double step) {
       const double there = so_far + step;
       if (there >= driven[next] || there > options.farthest_drive_m) return;
       driven[next] = there;
+      followed[next] = followed[position];
       open.emplace(there, next);
     });
   }
   return kNever;
 }
 
-SelfSimilarPlace look_around(std::size_t position, const AlternativeFinder& finder,
-                             const ExpectedScans& scans) {
+/// What is seen from one position. Who may turn looks where the fewest other poses see the same.
+struct Outlook {
   SelfSimilarPlace place;
-  place.T_map_sensor = scans.pose(position, 0);
-  std::size_t ambiguous = 0;
+  Pose2 T_map_clearest;  ///< the position, in the heading with the fewest alternatives
+  std::vector<Alternative> fewest;
+};
+
+Outlook look_around(std::size_t position, const AlternativeFinder& finder, const ExpectedScans& scans) {
+  Outlook out;
+  out.place.T_map_sensor = scans.pose(position, 0);
+  std::size_t ambiguous = 0, clearest = 0, least = std::numeric_limits<std::size_t>::max();
+  std::vector<Pose2> T_other_own;
   for (std::size_t h = 0; h < scans.headings(); ++h) {
-    std::vector<Alternative> found = finder.find(position, h);
+    const Pose2 own = scans.pose(position, h);
+    const std::vector<Alternative> found = finder.find(position, h);
+    for (const Alternative& a : found) T_other_own.push_back(a.T_map_sensor * inverse(own));
+    if (found.size() < least) least = found.size(), clearest = h;
     if (found.empty()) continue;
     ++ambiguous;
-    if (!place.alternatives.empty() && place.alternatives[0].log_ratio >= found[0].log_ratio) continue;
-    place.alternatives = std::move(found);
-    place.T_map_sensor = scans.pose(position, h);
+    std::vector<Alternative>& best = out.place.alternatives;
+    if (!best.empty() && best[0].log_ratio >= found[0].log_ratio) continue;
+    best = found;
+    out.place.T_map_sensor = own;
   }
-  place.ambiguous_headings = static_cast<double>(ambiguous) / static_cast<double>(scans.headings());
-  return place;
+  out.T_map_clearest = scans.pose(position, clearest);
+  out.fewest = finder.confirm(position, clearest, T_other_own);
+  out.place.ambiguous_headings = static_cast<double>(ambiguous) / static_cast<double>(scans.headings());
+  return out;
 }
 
 /// Work on all positions in fixed tasks, with a report now and then.
@@ -289,16 +321,20 @@ std::vector<SelfSimilarPlace> find_self_similarity(const OccupancyGrid& map, con
   options.validate();
   ExpectedScans scans(map, index, likelihood, range_m, options);
   for_all(scans.positions(), executor, on_progress, 0.0, 0.05, [&](std::size_t i) { scans.take(i); });
-  std::vector<SelfSimilarPlace> places(scans.positions());
+  std::vector<Outlook> outlooks(scans.positions());
   const AlternativeFinder finder(index, scans, options);
-  for_all(places.size(), executor, on_progress, 0.05, 0.6,
-          [&](std::size_t i) { places[i] = look_around(i, finder, scans); });
+  for_all(outlooks.size(), executor, on_progress, 0.05, 0.6,
+          [&](std::size_t i) { outlooks[i] = look_around(i, finder, scans); });
   const Neighbourhood beside(scans, index.spacing_m());
-  for_all(places.size(), executor, on_progress, 0.6, 1.0, [&](std::size_t i) {
-    if (places[i].alternatives.empty()) return;
-    const Pose2 T_other_own = places[i].alternatives[0].T_map_sensor * inverse(places[i].T_map_sensor);
-    places[i].resolved_after_m = shortest_resolving_drive(i, T_other_own, scans, beside, options);
+  for_all(outlooks.size(), executor, on_progress, 0.6, 1.0, [&](std::size_t i) {
+    for (const Alternative& other : outlooks[i].fewest) {
+      const Pose2 T_other_own = other.T_map_sensor * inverse(outlooks[i].T_map_clearest);
+      const double drive_m = shortest_resolving_drive(i, T_other_own, scans, beside, options);
+      outlooks[i].place.resolved_after_m = std::max(outlooks[i].place.resolved_after_m, drive_m);
+    }
   });
+  std::vector<SelfSimilarPlace> places;
+  for (Outlook& outlook : outlooks) places.push_back(std::move(outlook.place));
   return places;
 }
 
