@@ -64,7 +64,9 @@ class StructuredLight {
       const float* const noise = noise_.number[part].data();
       for (std::size_t i = begin; i < end; ++i) {
         const float steps = steps_m_ / depths_m[i] + sigma_steps_ * noise[i - begin];
-        const auto whole = static_cast<float>(static_cast<std::int32_t>(std::max(steps, 0.0F) + 0.5F));
+        const float shifted =
+            std::max(steps, 0.0F) + 0.5F;  // then cut: rounds on all lanes, as lround cannot
+        const auto whole = static_cast<float>(static_cast<std::int32_t>(shifted));
         const float mm = 1000.0F * steps_m_ / std::max(whole, 0.01F) + 0.5F;
         const bool is_valid = mm >= min_mm_ && mm <= max_mm_;
         millimetres[i] = static_cast<std::uint16_t>(static_cast<std::int32_t>(is_valid ? mm : 0.0F));

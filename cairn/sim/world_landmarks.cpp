@@ -53,6 +53,7 @@ void add_false(const WorldLandmarkDetectorOptions& o, std::span<const PlacedLand
 
 std::vector<PlacedLandmark> make_landmarks(const std::vector<WorldLandmarkOptions>& options) {
   std::vector<PlacedLandmark> landmarks;
+  landmarks.reserve(options.size());
   for (const WorldLandmarkOptions& o : options)
     landmarks.push_back({parse_point("landmarks." + o.name + ".at", o.at), o.id});
   return landmarks;

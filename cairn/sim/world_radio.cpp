@@ -37,6 +37,7 @@ std::vector<Transmitter> make_transmitters(const std::string& table,
                                            const WorldRadioOptions& radio) {
   const std::uint64_t first = table == "beacons" ? kBeaconFields : 0;
   std::vector<Transmitter> transmitters;
+  transmitters.reserve(options.size());
   for (const WorldTransmitterOptions& o : options) {
     transmitters.push_back(
         {o.name, parse_point(table + "." + o.name + ".at", o.at), o.power_dbm,

@@ -238,7 +238,8 @@ double shortest_resolving_drive(std::size_t from, const Pose2& T_other_own, cons
   followed[from] = T_other_own;
   open.emplace(0.0, from);
   while (!open.empty()) {
-    const auto [so_far, position] = open.top();
+    const double so_far = open.top().first;
+    const std::size_t position = open.top().second;
     open.pop();
     if (so_far > driven[position]) continue;
     if (told_apart(scans, position, options, followed[position])) return so_far;
