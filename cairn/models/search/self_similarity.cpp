@@ -335,6 +335,7 @@ std::vector<SelfSimilarPlace> find_self_similarity(const OccupancyGrid& map, con
     }
   });
   std::vector<SelfSimilarPlace> places;
+  places.reserve(outlooks.size());
   for (Outlook& outlook : outlooks) places.push_back(std::move(outlook.place));
   return places;
 }

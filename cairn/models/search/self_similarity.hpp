@@ -35,8 +35,9 @@ struct SelfSimilarPlace {
   Pose2 T_map_sensor;                     ///< the position, and the most ambiguous of the headings looked in
   double ambiguous_headings = 0.0;        ///< share of the headings in which there is an alternative
   std::vector<Alternative> alternatives;  ///< of that heading, the best first; empty: the place is unique
-  /// Length of the shortest drive, the robot free to turn, after which scans have told apart every alternative
-  /// of the heading that has the fewest; 0: turning is enough; infinite: not within farthest_drive_m.
+  /// Length of the shortest drive, the robot free to turn, after which scans have told apart every
+  /// alternative of the heading that has the fewest; 0: turning is enough; infinite: not within
+  /// farthest_drive_m.
   double resolved_after_m = 0.0;
 };
 
