@@ -2,6 +2,7 @@
 
 #include "cairn/bayes/resampling/resampling_schemes.hpp"
 #include "cairn/core/errors.hpp"
+#include "cairn/localization/recipes.hpp"
 
 #include <algorithm>
 #include <sstream>
@@ -173,7 +174,7 @@ void LocalizerOptions::visit(OptionVisitor& v) {
        "composition of the filter: mcl (fixed number of particles), kld_mcl (adaptive), amcl (and recovers), "
        "cgr (few, refined by the measurement); "
        "srl, kld_srl (sensor resetting); csrl, ckld_srl, ckld_mcl (and keep hypotheses apart)"},
-      recipe, {"mcl", "kld_mcl", "cgr", "amcl", "srl", "kld_srl", "csrl", "ckld_srl", "ckld_mcl"});
+      recipe, recipe_names());
   v.text({"odometry_stream",
           "name of the odometry in the log; empty: the first odometry stream; none: do without"},
          odometry_stream);

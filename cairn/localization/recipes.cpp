@@ -125,6 +125,12 @@ constexpr Recipe kRecipes[] = {{"mcl", mcl},   {"kld_mcl", kld_mcl},   {"cgr", c
 
 }  // namespace
 
+std::vector<std::string> recipe_names() {
+  std::vector<std::string> names;
+  for (const Recipe& recipe : kRecipes) names.emplace_back(recipe.name);
+  return names;
+}
+
 ParticleFilter<Pose2, Pose2> make_filter(const LocalizerOptions& options, std::uint64_t seed,
                                          std::shared_ptr<const Executor> executor, const OccupancyGrid* map) {
   std::string known;

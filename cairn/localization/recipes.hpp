@@ -5,8 +5,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace cairn {
+
+/// The names of all recipes, the simplest first.
+std::vector<std::string> recipe_names();
 
 /// Builds the particle filter that `options.recipe` names:
 ///   mcl       a fixed number of particles, resampling when the effective sample size has fallen

@@ -3,6 +3,7 @@
 #include "cairn/bayes/resampling/resampling_schemes.hpp"
 #include "cairn/bayes/triggers/triggers.hpp"
 #include "cairn/localization/localizer_options.hpp"
+#include "cairn/localization/recipes.hpp"
 
 #include <functional>
 #include <string>
@@ -22,34 +23,42 @@ struct RecipeCase {
   }
 };
 
-/// Every recipe, one line each; the plain ones with every resampling scheme and every trigger, too.
+/// The plain recipe with every other resampling scheme and every other trigger.
+inline void add_variants(const std::string& recipe, std::vector<RecipeCase>& cases) {
+  for (const std::string& scheme : resampling_schemes()) {
+    if (scheme == LocalizerOptions{}.filter.resampling) continue;
+    cases.push_back({recipe + "_" + scheme, [recipe, scheme](LocalizerOptions& o) {
+                       o.recipe = recipe;
+                       o.filter.resampling = scheme;
+                     }});
+  }
+  for (const std::string& trigger : trigger_names()) {
+    if (trigger == LocalizerOptions{}.filter.resample.when) continue;
+    cases.push_back({recipe + "_by_" + trigger, [recipe, trigger](LocalizerOptions& o) {
+                       o.recipe = recipe;
+                       o.filter.resample.when = trigger;
+                     }});
+  }
+}
+
+inline RecipeCase cgr_with(const std::string& model) {
+  return {"cgr_" + model, [model](LocalizerOptions& o) {
+            o.recipe = "cgr";
+            o.laser.model = model;
+            o.cgr.particles = 200;  // with 20 the means of two frames differ by chance
+          }};
+}
+
+/// Every recipe of the registry; the plain ones in all their variants, cgr on cells and on walls.
 inline std::vector<RecipeCase> recipes() {
   std::vector<RecipeCase> cases;
-  for (const std::string recipe : {"mcl", "kld_mcl"}) {
-    cases.push_back({recipe, [recipe](LocalizerOptions& o) { o.recipe = recipe; }});
-    for (const std::string& scheme : resampling_schemes()) {
-      if (scheme == LocalizerOptions{}.filter.resampling) continue;
-      cases.push_back({recipe + "_" + scheme, [recipe, scheme](LocalizerOptions& o) {
-                         o.recipe = recipe;
-                         o.filter.resampling = scheme;
-                       }});
+  for (const std::string& recipe : recipe_names()) {
+    if (recipe == "cgr") {
+      for (const std::string model : {"likelihood_field_prob", "v_amcl"}) cases.push_back(cgr_with(model));
+      continue;
     }
-    for (const std::string& trigger : trigger_names()) {
-      if (trigger == LocalizerOptions{}.filter.resample.when) continue;
-      cases.push_back({recipe + "_by_" + trigger, [recipe, trigger](LocalizerOptions& o) {
-                         o.recipe = recipe;
-                         o.filter.resample.when = trigger;
-                       }});
-    }
-  }
-  for (const std::string recipe : {"amcl", "srl", "kld_srl", "csrl", "ckld_srl", "ckld_mcl"})
     cases.push_back({recipe, [recipe](LocalizerOptions& o) { o.recipe = recipe; }});
-  for (const std::string model : {"likelihood_field_prob", "v_amcl"}) {
-    cases.push_back({"cgr_" + model, [model](LocalizerOptions& o) {
-                       o.recipe = "cgr";
-                       o.laser.model = model;
-                       o.cgr.particles = 200;  // with 20 the means of two frames differ by chance
-                     }});
+    if (recipe == "mcl" || recipe == "kld_mcl") add_variants(recipe, cases);
   }
   return cases;
 }
