@@ -7,6 +7,9 @@ namespace cairn {
 namespace {
 
 constexpr double kLongest_s = 1e6;
+// Messages that come in bursts have a median gap of nothing: nine in ten gaps tell the rhythm, and up to
+// three silences among the last 31 gaps do not change it.
+constexpr double kUsualShare = 0.9;
 
 }  // namespace
 
@@ -17,10 +20,10 @@ Watchdog::Watchdog(std::vector<std::optional<Duration>> periods, double factor)
 
 void Watchdog::heard(StreamId id, Time now) {
   Stream& stream = streams_[id];
-  if (stream.last && !stream.silent) stream.gaps.add(std::max(now - *stream.last, Duration{0}), now);
+  if (stream.last) stream.gaps.add(std::max(now - *stream.last, Duration{0}), now);
   stream.last = now;
   stream.silent = false;
-  stream.period = stream.told ? stream.told : stream.gaps.quantile(0.5, now);
+  stream.period = stream.told ? stream.told : stream.gaps.quantile(kUsualShare, now);
   set_deadline(stream);
 }
 

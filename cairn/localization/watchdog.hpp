@@ -10,7 +10,8 @@
 namespace cairn {
 
 /// Notices streams that fell silent: nothing has arrived for `factor` times the period in which they usually
-/// speak. The period is the one that was told, else the median of the last 31 gaps between arrivals.
+/// speak. The period is the one that was told, else the gap that nine in ten of the last 31 gaps between
+/// arrivals do not exceed: logs and networks deliver in bursts.
 class Watchdog {
  public:
   /// @param periods per stream, the period where it is known beforehand

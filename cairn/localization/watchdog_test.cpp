@@ -64,6 +64,20 @@ TEST(Watchdog, ABurstIsNoPeriod) {
   EXPECT_TRUE(silent(dog, 1e6).empty()) << "all arrived at one instant";
 }
 
+TEST(Watchdog, BurstsAreARhythm) {
+  Watchdog dog({std::nullopt}, 5.0);
+  for (int burst = 0; burst < 40; ++burst) {
+    for (int i = 0; i < 4; ++i) {
+      const double now = 0.5 * burst + 0.001 * i;
+      if (burst > 10) {
+        EXPECT_TRUE(silent(dog, now).empty()) << now;
+      }
+      dog.heard(0, at(now));
+    }
+  }
+  EXPECT_EQ(silent(dog, 19.503 + 5.0 * 0.5).size(), 1U);
+}
+
 TEST(Watchdog, StartsAnewWithTheClock) {
   Watchdog dog({std::nullopt}, 3.0);
   for (int i = 0; i < 10; ++i) dog.heard(0, at(1000 + i));
