@@ -2,11 +2,13 @@
 #include "apps/cairn/interrupt.hpp"
 #include "apps/cairn/localize_metrics.hpp"
 #include "apps/cairn/localize_run.hpp"
+#include "apps/cairn/place_cache.hpp"
 #include "apps/cairn/pose_option.hpp"
 #include "apps/cairn/progress.hpp"
 #include "apps/cairn/report_command.hpp"
 #include "apps/cairn/run_directory.hpp"
 #include "apps/cairn/seed_option.hpp"
+#include "apps/cairn/time_spans.hpp"
 #include "cairn/core/angle.hpp"
 #include "cairn/core/errors.hpp"
 #include "cairn/io/configuration.hpp"
@@ -38,6 +40,7 @@ struct Arguments {
   std::string init_error = "0,0,0";
   bool global = false;
   bool live = false;
+  std::string spans;
   std::string reference;
   std::string seed = "1";
   int threads = 1;
@@ -98,6 +101,17 @@ void check_overlap(const std::string& path, const Trajectory& reference, const s
       "give the reference of the same run, in the same clock");
 }
 
+// A run over a part of a log: as if nothing had been recorded before and after it.
+void keep_spans(const std::string& text, std::vector<Event>& events) {
+  const TimeSpans spans("--spans", text);
+  if (spans.everything() || events.empty()) return;
+  const Time start = std::min_element(events.begin(), events.end(), [](const Event& a, const Event& b) {
+                       return a.stamp < b.stamp;
+                     })->stamp;
+  std::erase_if(events, [&](const Event& event) { return !spans.contains(event.stamp - start); });
+  if (events.empty()) throw ConfigurationError("--spans", "hold nothing of the log", "see `cairn log info`");
+}
+
 Inputs read_inputs(const Arguments& arguments) {
   const auto started = std::chrono::steady_clock::now();
   Inputs inputs;
@@ -107,6 +121,7 @@ Inputs read_inputs(const Arguments& arguments) {
   make_stream_maps_absolute(inputs.options);
   inputs.stream_maps = read_stream_maps(inputs.options, inputs.diagnostics);
   inputs.log = read_log(arguments.log);
+  keep_spans(arguments.spans, inputs.log.events);
   arguments.live ? sort_by_arrival(inputs.log.events) : void(sort_by_stamp(inputs.log));
   if (!arguments.reference.empty()) {
     const std::vector<Time> stamps = scan_stamps(inputs.log);
@@ -194,15 +209,17 @@ std::unique_ptr<Recorder> make_recorder(const Arguments& arguments, const Inputs
 
 LocalizeResult run_with_progress(const Arguments& arguments, const Inputs& inputs) {
   const Start start = choose_start(arguments, inputs);
-  LocalizeRequest request{.log = &inputs.log,
-                          .map = inputs.map,
-                          .maps = inputs.maps,
-                          .stream_maps = inputs.stream_maps,
-                          .options = inputs.options,
-                          .start = start,
-                          .seed = parse_seed("--seed", arguments.seed),
-                          .threads = arguments.threads,
-                          .live = arguments.live};
+  LocalizeRequest request{
+      .log = &inputs.log,
+      .map = inputs.map,
+      .maps = inputs.maps,
+      .stream_maps = inputs.stream_maps,
+      .options = inputs.options,
+      .places = places_for(inputs.log, inputs.options, *inputs.maps, inputs.stream_maps, arguments.map),
+      .start = start,
+      .seed = parse_seed("--seed", arguments.seed),
+      .threads = arguments.threads,
+      .live = arguments.live};
   const auto recorder = make_recorder(arguments, inputs, start);
   if (recorder) {
     request.on_event = [&](const Event& event) { recorder->record(event); };
@@ -222,6 +239,7 @@ LocalizeResult run_with_progress(const Arguments& arguments, const Inputs& input
 // What can be refused before anything is read.
 void check_arguments(const Arguments& arguments) {
   check_run_directory(arguments.out);
+  TimeSpans("--spans", arguments.spans);
   parse_seed("--seed", arguments.seed);
   if (arguments.threads < 1 || arguments.threads > Executor::kMostThreads) {
     throw ConfigurationError("--threads", "is " + std::to_string(arguments.threads),
@@ -280,6 +298,8 @@ void add_localize(CLI::App& program, Runner& run) {
       "As on the robot: messages in the order of their arrival (default: of their stamps), and the "
       "trajectory "
       "is of the estimates that it had at each moment (default: of the beliefs at the scans' stamps)");
+  command->add_option("--spans", a->spans,
+                      "Only these parts of the log, for example 100-160 (seconds since its start)");
   command->add_option("--reference", a->reference,
                       "Trajectory taken as true: adds the accuracy to the results");
   command->add_option("--seed", a->seed, "Of all random numbers")->capture_default_str();

@@ -107,7 +107,7 @@ LocalizeResult localize(const LocalizeRequest& request) {
   const auto prepare_started = Clock::now();
   const auto executor = std::make_shared<const Executor>(request.threads);
   MonteCarloLocalizer localizer(request.options, request.log->streams, library_of(request), request.start,
-                                request.seed, executor);
+                                request.seed, executor, nullptr, request.places);
   const auto tell = [&](const Estimate& estimate) {
     result.estimates.push_back(estimate);
     result.hypotheses.push_back(localizer.hypotheses());

@@ -22,6 +22,7 @@ struct LocalizeRequest {
   /// Of the streams that have their own (streams.<name>.map), in the frame of `map`; by that name.
   StreamMaps stream_maps = {};
   LocalizerOptions options;
+  PlaceIndices places = {};  ///< by stream; those that are missing are made while it runs
   Start start;
   std::uint64_t seed = 1;
   int threads = 1;

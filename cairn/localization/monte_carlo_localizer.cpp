@@ -36,10 +36,11 @@ bool has_own_recovery(const std::string& recipe) {
 
 FusionParts compose(const LocalizerOptions& options, const std::vector<StreamInfo>& streams,
                     const MapLibrary& maps, const Start& start, std::uint64_t seed,
-                    std::shared_ptr<const Executor> executor, std::unique_ptr<CostClock> cost_clock) {
+                    std::shared_ptr<const Executor> executor, std::unique_ptr<CostClock> cost_clock,
+                    const PlaceIndices& places) {
   options.validate();
   FusionParts parts;
-  parts.streams = bind_streams(options, streams, maps);
+  parts.streams = bind_streams(options, streams, maps, places);
   const auto map = maps.main().grid();
   parts.filter = std::make_unique<ParticlePoseFilter>(make_filter(options, seed, executor, map.get()),
                                                       options.random_walk);
@@ -66,8 +67,8 @@ MonteCarloLocalizer::MonteCarloLocalizer(const LocalizerOptions& options,
                                          const std::vector<StreamInfo>& streams, const MapLibrary& maps,
                                          const Start& start, std::uint64_t seed,
                                          std::shared_ptr<const Executor> executor,
-                                         std::unique_ptr<CostClock> cost_clock)
+                                         std::unique_ptr<CostClock> cost_clock, const PlaceIndices& places)
     : FusionLocalizer(
-          compose(options, streams, maps, start, seed, std::move(executor), std::move(cost_clock))) {}
+          compose(options, streams, maps, start, seed, std::move(executor), std::move(cost_clock), places)) {}
 
 }  // namespace cairn

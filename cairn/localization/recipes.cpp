@@ -1,6 +1,7 @@
 #include "cairn/localization/recipes.hpp"
 
 #include "cairn/bayes/injections/injections.hpp"
+#include "cairn/bayes/injections/measurement_source.hpp"
 #include "cairn/bayes/resampling/resampling_schemes.hpp"
 #include "cairn/bayes/resampling/two_stage.hpp"
 #include "cairn/core/errors.hpp"
@@ -38,8 +39,8 @@ struct Kitchen {
     if (map == nullptr)
       throw ConfigurationError("recipe", "'" + options.recipe + "' needs a map of cells",
                                "use mcl or kld_mcl");
-    return std::make_shared<const FreeSpaceSource>(GlobalStart(*map, filter().source_per_m2, seed + 1),
-                                                   executor);
+    return std::make_shared<const MeasurementSource<Pose2>>(std::make_unique<const FreeSpaceSource>(
+        GlobalStart(*map, filter().source_per_m2, seed + 1), executor));
   }
   std::unique_ptr<Injection<Pose2>> resetting() const {
     return std::make_unique<SensorResetting<Pose2>>(filter().resetting, beams(), source());
@@ -129,6 +130,11 @@ std::vector<std::string> recipe_names() {
   std::vector<std::string> names;
   for (const Recipe& recipe : kRecipes) names.emplace_back(recipe.name);
   return names;
+}
+
+bool samples_from_measurements(const std::string& recipe) {
+  return recipe == "amcl" || recipe == "srl" || recipe == "kld_srl" || recipe == "csrl" ||
+         recipe == "ckld_srl";
 }
 
 ParticleFilter<Pose2, Pose2> make_filter(const LocalizerOptions& options, std::uint64_t seed,

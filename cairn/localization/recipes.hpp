@@ -35,4 +35,8 @@ ParticleFilter<Pose2, Pose2> make_filter(const LocalizerOptions& options, std::u
                                          std::shared_ptr<const Executor> executor,
                                          const OccupancyGrid* map = nullptr);
 
+/// True for the recipes that draw samples of p(x | z): from the measurement's own model where it can
+/// (BoundUpdate::sample), else from poses all over the free space of the map, weighed by it.
+bool samples_from_measurements(const std::string& recipe);
+
 }  // namespace cairn

@@ -2,7 +2,9 @@
 
 #include "cairn/core/errors.hpp"
 #include "cairn/localization/laser_locator.hpp"
+#include "cairn/localization/recipes.hpp"
 #include "cairn/models/derived_maps.hpp"
+#include "cairn/models/search/place_sampler.hpp"
 
 #include <algorithm>
 
@@ -53,6 +55,7 @@ struct LaserParts {
   std::unique_ptr<const LaserLocator> start;     ///< null: the search for the start is switched off
   std::unique_ptr<const LaserLocator> recovery;  ///< null: recovery is switched off
   std::unique_ptr<const BeamClassifier> classes;
+  std::optional<PlaceSampler> sampler;  ///< only for recipes that draw samples of p(x | z)
   BeamLimits limits;
   int max_beams = 0;
   double cost = 1.0;
@@ -65,7 +68,7 @@ class LaserStream final : public StreamModel {
   explicit LaserStream(LaserParts parts) : parts_(std::move(parts)) {}
 
   BoundUpdate<Pose2> bind(const Event::Payload& z, bool compact) const override {
-    return (compact ? parts_.fine : parts_.coarse)->bind(scan_of(z));
+    return with_samples((compact ? parts_.fine : parts_.coarse)->bind(scan_of(z)), z);
   }
   bool informs(const Event::Payload& z) const override {
     return parts_.fine->reads_no_returns() || !select_beams(scan_of(z), parts_.limits, 1).empty();
@@ -74,7 +77,8 @@ class LaserStream final : public StreamModel {
   BoundUpdate<Pose2> bind_given(const Event::Payload& z, bool compact,
                                 const BeliefSample& belief) const override {
     if (!parts_.skipping || !compact) return bind(z, compact);
-    return parts_.fine->bind(parts_.skipping->expected_part(scan_of(z), belief(kSkippingSample)));
+    return with_samples(
+        parts_.fine->bind(parts_.skipping->expected_part(scan_of(z), belief(kSkippingSample))), z);
   }
   double explained_share(const Event::Payload& z, const Pose2& T_map_base) const override {
     return parts_.fine->explained_share(scan_of(z), T_map_base);
@@ -99,6 +103,13 @@ class LaserStream final : public StreamModel {
  private:
   static const LaserScan& scan_of(const Event::Payload& z) {
     return *std::get<std::shared_ptr<const LaserScan>>(z);
+  }
+
+  BoundUpdate<Pose2> with_samples(BoundUpdate<Pose2> bound, const Event::Payload& z) const {
+    if (parts_.sampler)
+      bound.sample =
+          parts_.sampler->bind(std::get<std::shared_ptr<const LaserScan>>(z), bound.log_likelihood);
+    return bound;
   }
 
   static constexpr std::size_t kSkippingSample = 100;  // shares to 5 %
@@ -131,9 +142,17 @@ std::unique_ptr<const BeamClassifier> make_classifier(const MapSet& map, const L
       ray_marcher_of(map, limits.max_range_m), T_base_sensor, limits);
 }
 
+std::optional<PlaceSampler> make_sampler(const MapSet& map, const LocalizerOptions& options,
+                                         const std::string& stream, const PlaceIndices& places,
+                                         const Pose2& T_base_sensor, const BeamLimits& limits) {
+  if (!samples_from_measurements(options.recipe)) return std::nullopt;
+  const auto known = places.find(stream);
+  return PlaceSampler(map.grid(), known == places.end() ? nullptr : known->second, T_base_sensor, limits);
+}
+
 std::unique_ptr<const StreamModel> bind_laser(const LocalizerOptions& options,
                                               const LaserStreamOptions& laser, const StreamInfo& stream,
-                                              const MapLibrary& maps) {
+                                              const MapLibrary& maps, const PlaceIndices& places) {
   const Pose2 T_base_sensor =
       laser.mount_from_log && stream.T_base_sensor ? *stream.T_base_sensor : laser.T_base_sensor;
   const std::string& name = laser.model.empty() ? options.laser.model : laser.model;
@@ -162,6 +181,7 @@ std::unique_ptr<const StreamModel> bind_laser(const LocalizerOptions& options,
                    .start = nullptr,
                    .recovery = nullptr,
                    .classes = make_classifier(map, options, T_base_sensor, laser.limits),
+                   .sampler = make_sampler(map, options, stream.name, places, T_base_sensor, laser.limits),
                    .limits = laser.limits,
                    .max_beams = options.laser.likelihood_field.max_beams,
                    .cost = laser.cost};
@@ -186,7 +206,7 @@ std::optional<LaserStreamOptions> options_of(const LocalizerOptions& options, co
 }  // namespace
 
 StreamBindings bind_streams(const LocalizerOptions& options, const std::vector<StreamInfo>& streams,
-                            const MapLibrary& maps) {
+                            const MapLibrary& maps, const PlaceIndices& places) {
   check_names(options, streams);
   StreamBindings bindings;
   bindings.odometry = find_odometry(streams, options.odometry_stream);
@@ -198,7 +218,7 @@ StreamBindings bind_streams(const LocalizerOptions& options, const std::vector<S
     bindings.periods.emplace_back();
     const auto laser = options_of(options, stream);
     if (!laser) continue;
-    bindings.models.back() = bind_laser(options, *laser, stream, maps);
+    bindings.models.back() = bind_laser(options, *laser, stream, maps, places);
     bindings.stamp_offsets.back() = duration_from_seconds(laser->stamp_offset_s);
     bindings.shares.back().nice = laser->nice;
     if (laser->rate_hz > 0.0) bindings.shares.back().rate_hz = laser->rate_hz;

@@ -434,6 +434,47 @@ class Runs(CliTest):
         json.loads(self.run_cairn("log", "info", "a.log", "--json").stdout)
 
 
+class Places(CliTest):
+    """The index from which recipes that reset draw: kept beside the map, made again when it is of no use."""
+
+    def run_srl(self, out):
+        result = self.localize("--set", "recipe=kld_srl", "--no-record", out=f"{self.id()}-{out}", init=None)
+        self.assertIn(result.returncode, (OK, LOST), result.stderr)
+        return result, (self.folder / f"{self.id()}-{out}" / "trajectory.tum").read_bytes()
+
+    def test_the_index_is_kept_and_a_damaged_one_replaced(self):
+        _, first = self.run_srl("first")
+        (kept,) = self.folder.glob("a.map.yaml.places-*")
+        good = kept.read_bytes()
+        for damage in [b"", b"cairn places 1\n", good[:-5], good[:-1] + bytes([good[-1] ^ 1]), good.replace(b" ", b"x", 3), b"?" * 99]:
+            kept.write_bytes(damage)
+            result, again = self.run_srl("again")
+            self.assertIn("made again", result.stderr)
+            self.assertEqual(again, first)
+            self.assertEqual(kept.read_bytes(), good)
+        result, again = self.run_srl("kept")
+        self.assertNotIn("made again", result.stderr)
+        self.assertEqual(again, first)
+        kept.unlink()
+        kept.mkdir()  # nothing can be written there
+        _, again = self.run_srl("nowhere")
+        self.assertEqual(again, first)
+        kept.rmdir()
+
+
+class Spans(CliTest):
+    def test_a_part_of_a_log(self):
+        self.assertEqual(self.localize("--spans", "0-10").returncode, OK)
+        stamps = [float(line.split()[0]) for line in (self.folder / self.id() / "trajectory.tum").read_text().splitlines()]
+        self.assertLess(stamps[-1] - stamps[0], 10.0)
+        self.assertGreater(stamps[-1] - stamps[0], 8.0)
+
+    def test_parts_that_are_none(self):
+        for spans in ["x", "5", "5-5", "9-3", "-3-4"]:
+            self.assert_refused(self.localize(f"--spans={spans}", out="refused"), USAGE, "--spans")
+        self.assert_refused(self.localize("--spans", "5000-6000", out="refused"), USAGE, "--spans")
+
+
 NAV2 = """amcl:
   ros__parameters:
     use_sim_time: True
