@@ -54,6 +54,9 @@ struct RayMarcher::Field {
   bool contains(const Point2& cell) const {
     return cell.x >= 0.0 && cell.x < geometry.width && cell.y >= 0.0 && cell.y < geometry.height;
   }
+  bool ends_at(const Point2& cell) const {
+    return contains(cell) && ends(static_cast<int>(cell.x), static_cast<int>(cell.y));
+  }
 };
 
 RayMarcher::RayMarcher(const OccupancyGrid& grid, double max_range_m, RayStop stop)
@@ -105,7 +108,7 @@ void RayMarcher::cast_block(std::span<const Pose2> T_map_sensor, std::span<const
   for (std::size_t i = 0; i < T_map_sensor.size(); ++i) {
     const Pose2 T_grid_sensor = T_grid_map * T_map_sensor[i];
     const Point2 cell{T_grid_sensor.x / cell_m, T_grid_sensor.y / cell_m};
-    if (!field.contains(cell) || !std::isfinite(T_grid_sensor.theta)) continue;
+    if (!field.contains(cell) || field.ends_at(cell) || !std::isfinite(T_grid_sensor.theta)) continue;
     origins.x[i] = static_cast<float>(cell.x + 1.0);
     origins.y[i] = static_cast<float>(cell.y + 1.0);
     origins.cosine[i] = static_cast<float>(std::cos(T_grid_sensor.theta));
@@ -124,18 +127,25 @@ void RayMarcher::cast_block(std::span<const Pose2> T_map_sensor, std::span<const
   }
   for (std::size_t i = 0; i < T_map_sensor.size(); ++i) {
     if (origins.x[i] == 0.0f)
-      cast_from_outside(T_map_sensor[i], bearings_rad,
-                        ranges_m.subspan(i * bearings_rad.size(), bearings_rad.size()));
+      cast_exactly(T_map_sensor[i], bearings_rad,
+                   ranges_m.subspan(i * bearings_rad.size(), bearings_rad.size()));
   }
 }
 
-// A pose off the map, or not finite: rare, and exact.
-void RayMarcher::cast_from_outside(const Pose2& pose, std::span<const double> bearings_rad,
-                                   std::span<float> ranges_m) const {
+// A pose off the map, within an obstacle, or not finite: rare.
+void RayMarcher::cast_exactly(const Pose2& pose, std::span<const double> bearings_rad,
+                              std::span<float> ranges_m) const {
+  const Field& field = *field_;
+  const bool begins_within = field.ends_at(field.geometry.to_cells({pose.x, pose.y}));
   for (std::size_t k = 0; k < bearings_rad.size(); ++k) {
     const Pose2 ray{pose.x, pose.y, pose.theta + bearings_rad[k]};
-    ranges_m[k] = static_cast<float>(walk_ray(
-        field_->geometry, ray, max_range_m_, [&](int column, int row) { return field_->ends(column, row); }));
+    bool is_within = begins_within;
+    const auto stops = [&](int column, int row) {
+      const bool ends = field.ends(column, row);
+      is_within = is_within && ends;
+      return ends && !is_within;
+    };
+    ranges_m[k] = static_cast<float>(walk_ray(field.geometry, ray, max_range_m_, stops));
   }
 }
 

@@ -12,7 +12,9 @@ namespace cairn {
 ///
 /// Marches with steps as long as the distance to the next wall allows ("sphere tracing": Hart 1996), many
 /// rays at once on all lanes of the processor; beside walls from cell to cell. A corner that a ray crosses on
-/// less than a thousandth of a cell may be missed; else the range is exact in single precision. Every path of
+/// less than a thousandth of a cell may be missed; else the range is exact in single precision. A ray that
+/// begins within an obstacle ends at the next one: a robot that stands where the map has furniture that is
+/// gone, or a particle a cell beside it, sees the room and not the inside of the obstacle. Every path of
 /// simd.hpp gives the same bits. Memory: 1 byte a cell.
 class RayMarcher {
  public:
@@ -26,7 +28,7 @@ class RayMarcher {
   double max_range_m() const { return max_range_m_; }
   double cell_m() const;  ///< width of a cell
 
-  /// Ranges (m) as cast_ray gives them, for every pose and every bearing.
+  /// Ranges (m) as cast_ray gives them, but for poses within an obstacle, for every pose and every bearing.
   /// @param T_map_sensor the poses; one that is not finite gets `max_range_m` for every bearing
   /// @param bearings_rad directions of the rays in the sensor's frame
   /// @param ranges_m ranges of pose i are [i * bearings, (i + 1) * bearings)
@@ -38,8 +40,7 @@ class RayMarcher {
   struct Field;
   void cast_block(std::span<const Pose2> T_map_sensor, std::span<const double> bearings_rad,
                   std::span<float> ranges_m) const;
-  void cast_from_outside(const Pose2& pose, std::span<const double> bearings_rad,
-                         std::span<float> ranges_m) const;
+  void cast_exactly(const Pose2& pose, std::span<const double> bearings_rad, std::span<float> ranges_m) const;
 
   std::unique_ptr<const Field> field_;
   double max_range_m_;

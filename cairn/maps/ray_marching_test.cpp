@@ -63,7 +63,9 @@ double bresenham(const OccupancyGrid& grid, const Pose2& ray) {
 TEST(RayMarcher, ErrsLessThanBresenham) {
   const OccupancyGrid room = test::mini_room(kTMapGrid);
   const RayMarcher marcher(room, kMaxRange_m);
-  const auto poses = some_poses(300, 0.0);
+  auto poses = some_poses(400, 0.0);
+  std::erase_if(poses, [&](const Pose2& p) { return room.state_at({p.x, p.y}) == CellState::kOccupied; });
+  ASSERT_GT(poses.size(), 300U);
   const auto bearings = some_bearings(60);
   const auto ranges = cast(marcher, poses, bearings);
   double marched = 0.0, stepped = 0.0, wrong = 0.0;
@@ -109,8 +111,24 @@ TEST(RayMarcher, AMiniatureByHand) {
   expect(passing, {1.5, 1.25, 0.0}, {3.5, 0.75, 0.5, 0.25});
   expect(stopping, {1.5, 1.25, 0.0}, {2.5, 0.75, 0.5, 0.25});
   expect(shortened, {1.5, 1.25, 0.0}, {3.0, 0.75, 0.5, 0.25});
-  expect(passing, {0.5, 0.5, 0.3}, {0.0, 0.0, 0.0, 0.0});   // within a wall
   expect(passing, {-2.0, 1.5, 0.0}, {2.0, 9.0, 9.0, 9.0});  // outside
+}
+
+// Rays from within a wall go on to the next one: along the wall there is none.
+TEST(RayMarcher, LeavesTheObstacleThatItBeginsIn) {
+  const OccupancyGrid room = test::draw_grid({"######",  //
+                                              "#    #",  //
+                                              "# ## #",  //
+                                              "#    #",  //
+                                              "######"});
+  const RayMarcher marcher(room, 9.0);
+  const auto from_table = cast(marcher, {{2.5, 2.5, 0.0}}, {0.0, kPi / 2.0, kPi, -kPi / 2.0});
+  const std::vector<float> room_around = {2.5f, 1.5f, 1.5f, 1.5f};
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(from_table[k], room_around[k], 1e-5) << k;
+  const auto from_wall = cast(marcher, {{0.5, 2.5, 0.0}}, {0.0, kPi / 2.0, kPi});
+  EXPECT_NEAR(from_wall[0], 1.5, 1e-5);
+  EXPECT_EQ(from_wall[1], 9.0f);
+  EXPECT_EQ(from_wall[2], 9.0f);
 }
 
 TEST(RayMarcher, LeavesAnOpenMap) {
