@@ -1,7 +1,9 @@
 #include "apps/cairn/campaign_cell.hpp"
 
 #include "apps/cairn/fingerprint.hpp"
+#include "apps/cairn/log_noise.hpp"
 #include "apps/cairn/run_directory.hpp"
+#include "apps/cairn/world_file.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -58,7 +60,9 @@ void add_costs(const json& metrics, const JobEnd& end, CellResult& result) {
 
 CellRecording recording_of(const Campaign& campaign, const CampaignCell& cell, const fs::path& logs) {
   const CampaignInput& input = campaign.inputs[cell.input];
-  if (input.world.empty()) return {input.log, input.map, input.reference, {}, {}};
+  const bool sensors = campaign.measures_sensors();
+  if (input.world.empty() || (sensors && cell.variant == kVariantReal))
+    return {input.log, input.map, input.reference, {}, {}, {}};
   CellRecording recording;
   const std::string seed = input.world_seed == "each" ? std::to_string(cell.seed) : input.world_seed;
   recording.simulate = {"simulate", input.world, "--seed", seed};
@@ -71,18 +75,42 @@ CellRecording recording_of(const Campaign& campaign, const CampaignCell& cell, c
   Fingerprint fingerprint;
   for (const std::string& word : recording.simulate)
     fingerprint.add(word == input.world ? file_name(word) : word);
-  if (fs::is_regular_file(input.world)) fingerprint.add_file(input.world);
+  if (!is_built_in_world(input.world)) {
+    for (const std::string& file : files_of_world(input.world)) fingerprint.add_file(file);
+  }
   recording.id = fingerprint.text();
   const fs::path folder = logs / recording.id;
-  recording.log = (folder / kSimulatedLog).string();
-  recording.map = (folder / kSimulatedMap).string();
+  recording.file = sensors ? kSimulatedSensors : kSimulatedLog;
+  recording.log = (folder / recording.file).string();
+  recording.map = sensors ? input.map : (folder / kSimulatedMap).string();
   recording.reference = (folder / kSimulatedTruth).string();
   return recording;
 }
 
-std::vector<std::string> localize_arguments(const Campaign& campaign, const CampaignCell& cell,
-                                            const CellRecording& recording) {
+namespace {
+
+std::vector<std::string> noise_arguments(const CampaignInput& input, const CampaignCell& cell,
+                                         const CellRecording& recording) {
+  std::vector<std::string> words{"log",     "noise",       "--log",       recording.log,
+                                 "--map",   recording.map, "--reference", recording.reference,
+                                 "--world", input.world,   "--max-gap-s", fmt::format("{}", input.max_gap_s)};
+  const auto add = [&words](const char* option, const std::string& value) {
+    if (!value.empty()) words.insert(words.end(), {option, value});
+  };
+  if (cell.variant == kVariantSimulated)
+    return words;  // has one laser and one odometry, and tells its mounts
+  add("--stream", input.stream);
+  add("--odometry", input.odometry);
+  add("--trajectory-frame", input.trajectory_frame);
+  return words;
+}
+
+}  // namespace
+
+std::vector<std::string> cell_arguments(const Campaign& campaign, const CampaignCell& cell,
+                                        const CellRecording& recording) {
   const CampaignInput& input = campaign.inputs[cell.input];
+  if (campaign.measures_sensors()) return noise_arguments(input, cell, recording);
   const CellSettings settings = settings_of(campaign, cell);
   std::vector<std::string> words{"localize", "--map", recording.map, "--log", recording.log};
   const auto add = [&words](std::initializer_list<std::string> more) { words.insert(words.end(), more); };
@@ -111,6 +139,14 @@ std::string cell_id(const Campaign& campaign, const CampaignCell& cell, const Ce
   }
   for (const std::string& setting : settings.set) fingerprint.add(setting);
   fingerprint.add_file(settings.config);
+  if (campaign.measures_sensors()) {
+    for (const std::string& word : {campaign.task, input.stream, input.odometry, input.trajectory_frame,
+                                    fmt::format("{}", input.max_gap_s)}) {
+      fingerprint.add(word);
+    }
+    fingerprint.add_file(input.map);
+    if (!is_built_in_world(input.world)) fingerprint.add_file(input.world);
+  }
   if (!recording.simulate.empty()) return fingerprint.text();
   for (const std::string& path : {recording.log, recording.map, recording.reference}) {
     fingerprint.add(file_name(path));
@@ -119,8 +155,27 @@ std::string cell_id(const Campaign& campaign, const CampaignCell& cell, const Ce
   return fingerprint.text();
 }
 
+namespace {
+
+CellResult read_noise(const Campaign& campaign, const CampaignCell& cell, const fs::path& run,
+                      const JobEnd& end) {
+  const json noise = json::parse(read_file(run / kNoiseFile));
+  CellResult result;
+  result.input = campaign.inputs[cell.input].name;
+  result.parameters = campaign.parameters[cell.parameters].name;
+  result.variant = cell.variant;
+  result.seed = cell.seed;
+  noise.at("metrics").get_to(result.metrics);
+  noise.at("distributions").get_to(result.distributions);
+  result.metrics["cpu_s"] = end.cpu_s;
+  return result;
+}
+
+}  // namespace
+
 CellResult read_cell(const Campaign& campaign, const CampaignCell& cell, const fs::path& run,
                      const JobEnd& end) {
+  if (campaign.measures_sensors()) return read_noise(campaign, cell, run, end);
   const RunData data = read_run(run);
   CellResult result;
   result.input = campaign.inputs[cell.input].name;

@@ -16,11 +16,13 @@ struct CellRecording {
   std::string map;
   std::string reference;
   std::vector<std::string> simulate;  ///< arguments of `cairn simulate` without --out; empty for a given one
+  std::string file;                   ///< name that the simulation writes to, within its folder
   std::string id;  ///< fingerprint of `simulate` and the world's file; empty for a given one
 };
 
 /// Names of the files in the folder of a simulated recording.
 inline constexpr const char* kSimulatedLog = "world.log";
+inline constexpr const char* kSimulatedSensors = "world.mcap";  ///< of task sensors
 inline constexpr const char* kSimulatedMap = "world.map.yaml";
 inline constexpr const char* kSimulatedTruth = "world.truth.tum";
 
@@ -28,9 +30,10 @@ inline constexpr const char* kSimulatedTruth = "world.truth.tum";
 CellRecording recording_of(const Campaign& campaign, const CampaignCell& cell,
                            const std::filesystem::path& logs);
 
-/// Arguments of the program that localizes the cell ("localize", "--map", ...), without `--out`.
-std::vector<std::string> localize_arguments(const Campaign& campaign, const CampaignCell& cell,
-                                            const CellRecording& recording);
+/// Arguments of the program that runs the cell ("localize", "--map", ...; or "log", "noise", ...), without
+/// `--out`.
+std::vector<std::string> cell_arguments(const Campaign& campaign, const CampaignCell& cell,
+                                        const CellRecording& recording);
 
 /// Fingerprint of a cell: 16 hexadecimal digits of its names, its arguments, and what the files it reads hold
 /// (of one above 1 MiB: its size and both ends). The same on every machine as long as the paths in the

@@ -1,5 +1,6 @@
 #include "apps/cairn/campaign_file.hpp"
 
+#include "apps/cairn/data_path.hpp"
 #include "apps/cairn/key_place.hpp"
 #include "apps/cairn/pose_option.hpp"
 #include "apps/cairn/world_file.hpp"
@@ -8,7 +9,6 @@
 #include "cairn/io/input_file.hpp"
 #include "cairn/localization/localizer_options.hpp"
 
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -17,19 +17,6 @@ namespace cairn::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kDataVariable = "$CAIRN_DATA";
-
-std::string expand_data(const std::string& key, const std::string& path) {
-  const std::string variable = kDataVariable;
-  if (path.compare(0, variable.size(), variable) != 0) return path;
-  const char* const data = std::getenv(variable.c_str() + 1);
-  if (data == nullptr) {
-    throw ConfigurationError(key, "needs the environment variable CAIRN_DATA",
-                             "set it to the folder of the recordings");
-  }
-  return data + path.substr(variable.size());
-}
 
 // Makes the path absolute or relative to the current folder, and refuses one that leads nowhere.
 void resolve(const fs::path& folder, const std::string& key, std::string& path) {

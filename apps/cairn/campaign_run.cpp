@@ -97,18 +97,19 @@ class CampaignRunner {
   }
 
   void simulate() {
-    std::map<std::string, std::vector<std::string>> wanted;
+    std::map<std::string, const CellRecording*> wanted;
     for (const Task& task : tasks_) {
       const bool missing =
           !task.recording.simulate.empty() && !fs::is_directory(folder_.logs() / task.recording.id);
-      if (missing) wanted[task.recording.id] = task.recording.simulate;
+      if (missing) wanted[task.recording.id] = &task.recording;
     }
     std::vector<Job> jobs;
     std::vector<std::string> ids;
-    for (const auto& [id, arguments] : wanted) {
+    for (const auto& [id, recording] : wanted) {
       const fs::path made = folder_.working() / id;
       fs::create_directories(made);
-      jobs.push_back({command_of(arguments, made / kSimulatedLog), folder_.working() / (id + ".txt")});
+      jobs.push_back(
+          {command_of(recording->simulate, made / recording->file), folder_.working() / (id + ".txt")});
       ids.push_back(id);
     }
     run_pool("simulating", jobs, [&](const JobEnd& end) {
@@ -124,7 +125,7 @@ class CampaignRunner {
     std::vector<const Task*> of_job;
     for (const Task& task : tasks_) {
       if (not_simulated_.count(task.recording.id) != 0) continue;
-      const auto arguments = localize_arguments(file_.campaign, task.cell, task.recording);
+      const auto arguments = cell_arguments(file_.campaign, task.cell, task.recording);
       jobs.push_back(
           {command_of(arguments, folder_.working() / task.id), folder_.working() / (task.id + ".txt")});
       of_job.push_back(&task);
@@ -140,7 +141,7 @@ class CampaignRunner {
     result.id = task.id;
     result.program = program_;
     std::vector<std::string> command{"cairn"};
-    const auto arguments = localize_arguments(file_.campaign, task.cell, task.recording);
+    const auto arguments = cell_arguments(file_.campaign, task.cell, task.recording);
     command.insert(command.end(), arguments.begin(), arguments.end());
     command.insert(command.end(), {"--out", "RUN"});
     result.command = shell_line(command);

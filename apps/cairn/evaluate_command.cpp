@@ -2,6 +2,7 @@
 #include "apps/cairn/commands.hpp"
 #include "apps/cairn/run_directory.hpp"
 #include "cairn/core/errors.hpp"
+#include "cairn/eval/campaign_figures.hpp"
 #include "cairn/eval/campaign_tables.hpp"
 #include "web/report_page.hpp"
 
@@ -76,6 +77,9 @@ void write_results(const std::filesystem::path& folder, const CampaignReport& re
   write_file(folder / "results.csv", to_csv(report));
   write_file(folder / "results.json", to_json(report));
   write_file(folder / "tables.md", to_markdown(report));
+  std::filesystem::create_directories(folder / "figures");
+  for (const CampaignFigure& figure : campaign_figures(report))
+    write_file(folder / "figures" / (figure.name + ".svg"), figure.svg);
   const std::string page = web::campaign_page();
   if (page.empty()) {
     spdlog::warn("no index.html: {}", web::why_no_report_page());

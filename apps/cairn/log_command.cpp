@@ -1,4 +1,5 @@
 #include "apps/cairn/commands.hpp"
+#include "apps/cairn/log_noise.hpp"
 #include "apps/cairn/log_table.hpp"
 #include "apps/cairn/output_file.hpp"
 #include "cairn/core/errors.hpp"
@@ -62,6 +63,7 @@ void add_log(CLI::App& program, Runner& run) {
                    "The file to write, OUT.mcap; what Cairn reads from it is the same to the last bit")
       ->required();
   convert->callback([a, &run] { run = [a] { return run_convert(*a); }; });
+  add_log_noise(*command, run);
 }
 
 }  // namespace cairn::app

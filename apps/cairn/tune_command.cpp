@@ -3,6 +3,7 @@
 #include "apps/cairn/output_file.hpp"
 #include "apps/cairn/posed_scan_arguments.hpp"
 #include "apps/cairn/tune_odometry.hpp"
+#include "apps/cairn/tune_sensors.hpp"
 #include "cairn/core/errors.hpp"
 #include "cairn/io/configuration.hpp"
 #include "cairn/io/input_file.hpp"
@@ -170,7 +171,9 @@ void add_tune(CLI::App& program, Runner& run) {
   auto* command = program.add_subcommand("tune", "Learn parameters from a log and the path of its robot");
   command->require_subcommand(0, 1);
   add_beam(*command, run);
+  add_tune_laser(*command, run);
   add_tune_odometry(*command, run);
+  add_tune_uwb(*command, run);
 }
 
 }  // namespace cairn::app

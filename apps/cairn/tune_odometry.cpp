@@ -1,5 +1,6 @@
 #include "apps/cairn/tune_odometry.hpp"
 
+#include "apps/cairn/odometry_path.hpp"
 #include "apps/cairn/output_file.hpp"
 #include "apps/cairn/pose_option.hpp"
 #include "apps/cairn/run_directory.hpp"
@@ -8,7 +9,6 @@
 #include "cairn/io/trajectory_reader.hpp"
 #include "cairn/models/motion/odometry_calibration.hpp"
 
-#include <cmath>
 #include <iostream>
 #include <memory>
 
@@ -26,27 +26,6 @@ struct Arguments {
 };
 
 const CLI::Range kLength(1e-3, 1e3);
-
-StreamId odometry_stream(const Log& log, const std::string& name) {
-  std::string names;
-  for (std::size_t i = 0; i < log.streams.size(); ++i) {
-    const StreamInfo& stream = log.streams[i];
-    if (stream.kind != StreamKind::kOdometry) continue;
-    if (name.empty() || stream.name == name) return static_cast<StreamId>(i);
-    names += (names.empty() ? "" : ", ") + stream.name;
-  }
-  if (names.empty()) throw InputError("log", "holds no odometry", "name a log that does");
-  throw ConfigurationError("--stream", "the log has no odometry '" + name + "'", "name one of: " + names);
-}
-
-Trajectory odometry_of(const Log& log, StreamId stream) {
-  Trajectory path;
-  for (const Event& event : log.events) {
-    if (event.stream == stream) path.push_back({event.stamp, std::get<Odometry>(event.payload).T_odom_base});
-  }
-  sort_by_stamp(path);
-  return path;
-}
 
 // The reference as poses of the base.
 Trajectory reference_of(const Arguments& arguments, const Trajectory& odometry) {
@@ -88,19 +67,15 @@ std::string motion_snippet(const Arguments& a, const OdometryCalibration& c) {
       c.alpha3.value, c.alpha4.value);
 }
 
-// The simulator draws the systematic errors of a robot: those of this one are one standard deviation of them.
+// The robot itself: its systematic errors are those found, not drawn.
 std::string world_snippet(const Arguments& a, const OdometryCalibration& c) {
   return fmt::format(
-      "# Errors of the wheels, learnt by `cairn tune odometry` from {} motions over {:.0f} m: as much wrong "
-      "as\n"
-      "# this robot's (distance {:.4f}, turn {:.4f}, drift {:.4f} rad/m), another one for each seed.\n"
-      "robot:\n  odometry:\n    wheel_base_m: {:g}\n    sigma_wheel_radius: {:.3g}\n    sigma_wheel_base: "
-      "{:.3g}\n"
-      "    sigma_per_sqrt_metre_m: {:.3g}\n    sigma_per_sqrt_metre_rad: {:.3g}\n",
-      c.motions, c.way_m, c.distance_factor.value, c.turn_factor.value, c.drift_rad_per_m.value,
-      a.calibration.wheel_base_m, std::abs(c.distance_factor.value - 1.0),
-      std::abs(c.distance_factor.value / c.turn_factor.value - 1.0), c.sigma_per_sqrt_metre_m.value,
-      c.sigma_per_sqrt_metre_rad.value);
+      "# Errors of the wheels, learnt by `cairn tune odometry` from {} motions over {:.0f} m.\n"
+      "robot:\n  odometry:\n    wheel_base_m: {:g}\n    distance_factor: {:.4f}\n    turn_factor: {:.4f}\n"
+      "    drift_rad_per_m: {:.4f}\n    sigma_wheel_radius: 0   # as this robot, for every seed\n"
+      "    sigma_wheel_base: 0\n    sigma_per_sqrt_metre_m: {:.3g}\n    sigma_per_sqrt_metre_rad: {:.3g}\n",
+      c.motions, c.way_m, a.calibration.wheel_base_m, c.distance_factor.value, c.turn_factor.value,
+      c.drift_rad_per_m.value, c.sigma_per_sqrt_metre_m.value, c.sigma_per_sqrt_metre_rad.value);
 }
 
 void give(const std::string& path, const std::string& text) {
@@ -118,7 +93,7 @@ int run_odometry(Arguments arguments) {
   }
   arguments.cutting.max_gap = duration_from_seconds(arguments.max_gap_s);
   const Log log = read_log(arguments.log);
-  const Trajectory odometry = odometry_of(log, odometry_stream(log, arguments.stream));
+  const Trajectory odometry = odometry_path(log, arguments.stream);
   const auto chains = cut_motions(odometry, reference_of(arguments, odometry), arguments.cutting);
   const OdometryCalibration found = calibrate_odometry(chains, arguments.calibration);
   std::cout << table_of(found);

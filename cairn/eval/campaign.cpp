@@ -65,6 +65,31 @@ void check_settings(const std::string& key, const std::string& set) {
   }
 }
 
+void check_sensor_input(const CampaignInput& input) {
+  const std::string key = "inputs." + input.name;
+  if (!input.log.empty() && !input.map.empty() && !input.reference.empty() && !input.world.empty()) return;
+  throw ConfigurationError(key, "lacks a log, its map, its reference, or the world of the same drive",
+                           "give all four: task: sensors compares them");
+}
+
+void check_sensor_campaign(const Campaign& campaign) {
+  for (const CampaignInput& input : campaign.inputs) check_sensor_input(input);
+  if (campaign.recipes.empty() && campaign.parameters.empty()) return;
+  throw ConfigurationError(campaign.recipes.empty() ? "parameters" : "recipes",
+                           "mean nothing where task is sensors: nothing is localized", "remove them");
+}
+
+// The log once, the world with every seed.
+std::vector<CampaignCell> sensor_cells(const Campaign& campaign, const std::vector<std::uint64_t>& seeds) {
+  std::vector<CampaignCell> cells;
+  for (std::size_t input = 0; input < campaign.inputs.size(); ++input) {
+    cells.push_back({cells.size(), input, "", 0, seeds.front(), kVariantReal});
+    for (const std::uint64_t seed : seeds)
+      cells.push_back({cells.size(), input, "", 0, seed, kVariantSimulated});
+  }
+  return cells;
+}
+
 void check_input(const CampaignInput& input) {
   const std::string key = "inputs." + input.name;
   if (input.world.empty() == input.log.empty()) {
@@ -138,6 +163,12 @@ void CampaignInput::visit(OptionVisitor& v) {
   v.text({"start", "reference, global, or x,y,yaw (m, rad)"}, start);
   v.text({"start_error", "x,y,yaw added to the start pose (m, rad)"}, start_error);
   v.flag({"live", "Messages in the order of their arrival, as `cairn localize --live`"}, live);
+  v.text({"stream", "task sensors: laser of the log, where it has several"}, stream);
+  v.text({"odometry", "task sensors: odometry of the log; none: the first"}, odometry);
+  v.choice({"trajectory_frame", "task sensors: whose poses the reference holds"}, trajectory_frame,
+           {"base", "sensor"});
+  v.number({"max_gap_s", "task sensors: the reference is not interpolated over longer gaps"}, max_gap_s,
+           {0.0, 1e6});
   settings.visit(v);
 }
 
@@ -149,6 +180,8 @@ void CampaignParameters::visit(OptionVisitor& v) {
 void Campaign::visit(OptionVisitor& v) {
   v.text({"title", "Title of the results"}, title);
   v.text({"about", "What the campaign asks"}, about);
+  v.choice({"task", "localize, or sensors: how those of a log and of a simulated world err"}, task,
+           {kTaskLocalize, kTaskSensors});
   v.text({"seeds", "Seeds of the localizer: 1..10 or 1,2,5"}, seeds);
   v.text({"recipes", "Recipes, separated by blanks; none: as configured"}, recipes);
   v.text({"baseline", "Variant that all others are compared with; none: the first"}, baseline);
@@ -163,8 +196,12 @@ void Campaign::visit(OptionVisitor& v) {
 
 void Campaign::validate() {
   if (inputs.empty()) throw ConfigurationError("inputs", "is missing or empty", "name a log or a world");
+  if (measures_sensors()) {
+    check_sensor_campaign(*this);
+  } else {
+    for (const CampaignInput& input : inputs) check_input(input);
+  }
   if (parameters.empty()) parameters.emplace_back().name = "default";
-  for (const CampaignInput& input : inputs) check_input(input);
   for (const CampaignParameters& p : parameters) check_settings("parameters." + p.name, p.settings.set);
   const std::vector<CampaignCell> all = cells();
   const bool known = baseline.empty() || std::any_of(all.begin(), all.end(), [&](const CampaignCell& cell) {
@@ -176,6 +213,7 @@ void Campaign::validate() {
 
 std::vector<CampaignCell> Campaign::cells() const {
   const std::vector<std::uint64_t> all_seeds = parse_seeds("seeds", seeds);
+  if (measures_sensors()) return sensor_cells(*this, all_seeds);
   std::vector<std::string> all_recipes = split_words(recipes);
   if (all_recipes.empty()) all_recipes.emplace_back();
   const std::size_t total = inputs.size() * all_recipes.size() * parameters.size() * all_seeds.size();

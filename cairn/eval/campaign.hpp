@@ -30,6 +30,11 @@ struct CampaignInput {
   std::string start = "reference";  ///< "reference", "global", or x,y,yaw (m, rad)
   std::string start_error = "0,0,0";
   bool live = false;  ///< messages in the order of arrival
+  // Of task sensors: how the log is read.
+  std::string stream;                     ///< laser, where the log has several
+  std::string odometry;                   ///< stream; empty: the first
+  std::string trajectory_frame = "base";  ///< whose poses the reference holds: base or sensor
+  double max_gap_s = 1.0;                 ///< the reference is not interpolated between poses further apart
   CampaignSettings settings;
 
   void visit(OptionVisitor& visitor);
@@ -42,6 +47,15 @@ struct CampaignParameters {
 
   void visit(OptionVisitor& visitor);
 };
+
+/// What the cells of a campaign do.
+inline constexpr const char* kTaskLocalize = "localize";  ///< run the localizer, and judge it
+inline constexpr const char* kTaskSensors =
+    "sensors";  ///< measure how the sensors err, in the log and in the world
+
+/// The two variants of task sensors.
+inline constexpr const char* kVariantReal = "real";
+inline constexpr const char* kVariantSimulated = "simulated";
 
 /// One run of the localizer: one input, one recipe, one set of parameters, one seed.
 struct CampaignCell {
@@ -59,6 +73,9 @@ struct Campaign {
 
   std::string title;
   std::string about;
+  /// "localize"; or "sensors": every input names a log with map and reference and a world of the same drive;
+  /// the log is measured once, the world is simulated with each seed.
+  std::string task = kTaskLocalize;
   std::string seeds = "1..10";  ///< "1..10", or "1,2,5"
   std::string recipes;          ///< "mcl kld_mcl"; empty: as configured
   std::string baseline;         ///< variant that the others are compared with; empty: the first
@@ -78,6 +95,7 @@ struct Campaign {
   /// @throws ConfigurationError as validate() for seeds that are no list, and beyond kMostCells
   std::vector<CampaignCell> cells() const;
 
+  bool measures_sensors() const { return task == kTaskSensors; }
   BootstrapOptions bootstrap() const { return {.resamples = resamples, .level = 0.95, .seed = 1}; }
 };
 

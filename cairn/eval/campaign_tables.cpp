@@ -1,7 +1,9 @@
 #include "cairn/eval/campaign_tables.hpp"
 
+#include "cairn/eval/campaign_figures.hpp"
 #include "cairn/eval/metric_style.hpp"
 #include "cairn/eval/page.hpp"
+#include "cairn/eval/sensor_tables.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -185,12 +187,18 @@ CampaignReport make_campaign_report(const Campaign& campaign, std::vector<CellRe
   CampaignReport report;
   report.title = campaign.title.empty() ? "Campaign" : campaign.title;
   report.about = campaign.about;
+  report.sensors = campaign.measures_sensors();
   const std::vector<CampaignCell> cells = campaign.cells();
   report.cells = cells.size();
   report.baseline = campaign.baseline.empty() ? cells.front().variant : campaign.baseline;
   report.results = std::move(results);
   report.metrics = split_words(campaign.metrics);
-  if (report.metrics.empty()) report.metrics = usual_columns(all_metrics(report.results));
+  if (report.metrics.empty()) {
+    const std::set<std::string> present = all_metrics(report.results);
+    report.metrics =
+        report.sensors ? std::vector<std::string>(present.begin(), present.end()) : usual_columns(present);
+  }
+  if (report.sensors) report.baseline = "";  // one log, many simulations: there are no pairs
   report.summary = summarize_campaign(report.results, report.baseline, campaign.bootstrap());
   return report;
 }
@@ -219,6 +227,10 @@ std::string to_json(const CampaignReport& report) {
 std::string to_markdown(const CampaignReport& report) {
   std::string text = "# " + report.title + "\n\n";
   if (!report.about.empty()) text += report.about + (report.about.back() == '\n' ? "\n" : "\n\n");
+  if (report.sensors) {
+    return text + std::to_string(report.results.size()) + " of " + std::to_string(report.cells) + " runs.\n" +
+           sensor_tables(report);
+  }
   text += std::to_string(report.results.size()) + " of " + std::to_string(report.cells) +
           " runs. Means over the runs, in brackets the bootstrap 95 % interval of the mean.\n\n" +
           groups_table(report) + spread_table(report);
@@ -238,6 +250,10 @@ std::string render_campaign(std::string_view page, const CampaignReport& report)
                               {"x", rounded(r.trace.x_m, 100.0)},
                               {"y", rounded(r.trace.y_m, 100.0)},
                               {"e", rounded(r.trace.error_m, 1000.0)}});
+  }
+  json["figures"] = Json::array();
+  if (report.sensors) {
+    for (const CampaignFigure& figure : campaign_figures(report)) json["figures"].push_back(figure.svg);
   }
   return fill_page(page, json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }

@@ -15,6 +15,7 @@ struct CampaignReport {
   std::string title;
   std::string about;
   std::string baseline;
+  bool sensors = false;              ///< of task sensors
   std::size_t cells = 0;             ///< that the campaign has
   std::vector<CellResult> results;   ///< of the finished ones, in the order of the cells
   std::vector<std::string> metrics;  ///< columns of the tables, in this order

@@ -96,5 +96,41 @@ TEST(Campaign, ErrorsNameTheKey) {
             "seeds");
 }
 
+Campaign sensor_campaign() {
+  Campaign campaign;
+  campaign.task = kTaskSensors;
+  campaign.seeds = "3..4";
+  campaign.inputs.resize(1);
+  CampaignInput& input = campaign.inputs[0];
+  input.name = "a";
+  input.log = "a.log";
+  input.map = "a.yaml";
+  input.reference = "a.tum";
+  input.world = "w.yaml";
+  return campaign;
+}
+
+TEST(Campaign, SensorsAreMeasuredOnceInTheLogAndWithEverySeedInTheWorld) {
+  Campaign campaign = sensor_campaign();
+  campaign.validate();
+  const std::vector<CampaignCell> cells = campaign.cells();
+  ASSERT_EQ(cells.size(), 3U);
+  EXPECT_EQ(cells[0].variant, kVariantReal);
+  EXPECT_EQ(cells[1].variant, kVariantSimulated);
+  EXPECT_EQ(cells[2].seed, 4U);
+}
+
+TEST(Campaign, SensorsNeedLogAndWorldAndNoRecipe) {
+  const auto changed = [](auto change) {
+    Campaign campaign = sensor_campaign();
+    change(campaign);
+    return refusal(campaign);
+  };
+  EXPECT_EQ(changed([](Campaign& c) { c.inputs[0].world = ""; }), "inputs.a");
+  EXPECT_EQ(changed([](Campaign& c) { c.inputs[0].reference = ""; }), "inputs.a");
+  EXPECT_EQ(changed([](Campaign& c) { c.recipes = "mcl"; }), "recipes");
+  EXPECT_EQ(changed([](Campaign& c) { c.parameters.emplace_back().name = "few"; }), "parameters");
+}
+
 }  // namespace
 }  // namespace cairn

@@ -74,16 +74,17 @@ ErrorTrace thin_out(const std::vector<PoseError>& errors, const Trajectory& refe
 }  // namespace
 
 std::string to_json(const CellResult& result) {
-  const Json json = {{"id", result.id},
-                     {"input", result.input},
-                     {"recipe", result.recipe},
-                     {"parameters", result.parameters},
-                     {"variant", result.variant},
-                     {"seed", result.seed},
-                     {"program", result.program},
-                     {"command", result.command},
-                     {"metrics", finite_only(result.metrics)},
-                     {"trace", to_json(result.trace)}};
+  Json json = {{"id", result.id},
+               {"input", result.input},
+               {"recipe", result.recipe},
+               {"parameters", result.parameters},
+               {"variant", result.variant},
+               {"seed", result.seed},
+               {"program", result.program},
+               {"command", result.command},
+               {"metrics", finite_only(result.metrics)},
+               {"trace", to_json(result.trace)}};
+  if (!result.distributions.empty()) json["distributions"] = result.distributions;
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -101,6 +102,7 @@ CellResult cell_result_from_json(std::string_view text, const std::string& where
     json.at("command").get_to(result.command);
     json.at("metrics").get_to(result.metrics);
     result.trace = trace_from(json.at("trace"));
+    if (json.contains("distributions")) json.at("distributions").get_to(result.distributions);
     if (same_sizes(result.trace)) return result;
   } catch (const Json::exception&) {
     // Refused below, in one sentence.

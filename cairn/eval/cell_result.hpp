@@ -30,6 +30,8 @@ struct CellResult {
   /// By name with its unit; a figure that the run does not have is missing. See docs/campaigns.md.
   std::map<std::string, double> metrics;
   ErrorTrace trace;
+  /// Evenly spread quantiles of the errors of sensors, by name (m, rad); see docs/campaigns.md.
+  std::map<std::string, std::vector<double>> distributions;
 };
 
 /// One line of JSON. Numbers keep all their digits; one that is not finite is left out.

@@ -9,6 +9,7 @@ namespace cairn {
 namespace {
 
 // The aperture is printed with six decimals: a full turn may come out a little larger.
+constexpr double kFarthestBeacon_m = 1e5;
 constexpr double kWidestApertureRad = kTwoPi + 1e-5;
 
 class Reader {
@@ -16,22 +17,25 @@ class Reader {
   void read_message(FieldReader& fields, TextLogBuilder& builder) {
     const std::string_view name = fields.word("line type");
     if (name == "FRAME") {
-      read_frame(fields);
+      read_frame(fields, builder);
     } else if (name == "ODO") {
       read_increment(fields);
     } else if (name == "LASER") {
       read_laser(fields, builder);
     } else if (name == "BEACON") {
-      read_beacon(fields, builder);
+      read_beacon(fields);
     } else {
       fields.fail("the line starts with none of FRAME, ODO, LASER, BEACON", "check how the log was made");
     }
   }
 
  private:
-  void read_frame(FieldReader& fields) {
+  void read_frame(FieldReader& fields, TextLogBuilder& builder) {
     fields.integer("frame number");
     fields.expect_end();
+    if (!beacons_.empty())
+      builder.warn("beacon without stamp", "a frame has BEACON, but no LASER to tell when");
+    beacons_.clear();
     T_odom_base_ = T_odom_base_ * T_this_next_;
     T_this_next_ = {};
   }
@@ -42,7 +46,7 @@ class Reader {
     T_this_next_ = T_this_next_ * increment;
   }
 
-  void read_laser(FieldReader& fields, TextLogBuilder& builder) const {
+  void read_laser(FieldReader& fields, TextLogBuilder& builder) {
     auto scan = std::make_shared<LaserScan>();
     const Time stamp = scan->stamp = fields.time("timestamp");
     const long long count = fields.integer("number of beams");
@@ -64,15 +68,26 @@ class Reader {
     const StreamId laser = builder.stream("laser", StreamKind::kLaserScan);
     builder.observe_mount(laser, {x, y, 0.0});
     builder.add_scan(laser, stamp, std::move(scan));
+    add_beacons(stamp, builder);
   }
 
-  static void read_beacon(FieldReader& fields, TextLogBuilder& builder) {
-    fields.integer("beacon");
-    fields.number("range");
+  // Told before the laser of their frame, which has the stamp.
+  void read_beacon(FieldReader& fields) {
+    const long long id = fields.integer("beacon");
+    const double range_m = fields.number("range");
     fields.expect_end();
-    builder.warn("unsupported message", "BEACON is not read");
+    if (!(range_m >= 0.0 && range_m <= kFarthestBeacon_m))
+      fields.fail("range is negative or beyond 100 km", "write metres");
+    if (range_m > 0.0) beacons_.push_back({std::to_string(id), range_m});
   }
 
+  void add_beacons(Time stamp, TextLogBuilder& builder) {
+    if (beacons_.empty()) return;
+    const StreamId uwb = builder.stream("uwb", StreamKind::kBeaconRanges);
+    builder.add_beacons(uwb, {stamp, std::exchange(beacons_, {})});
+  }
+
+  std::vector<BeaconReading> beacons_;  ///< of this frame
   Pose2 T_odom_base_;
   Pose2 T_this_next_;  ///< motion from this frame to the next
 };

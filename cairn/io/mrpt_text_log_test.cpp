@@ -45,7 +45,7 @@ TEST(MrptTextLog, AFrameWithoutLaserKeepsItsMotion) {
 
 TEST(MrptTextLog, ScanAndMount) {
   const Log log = read("FRAME 0\nBEACON 1 5.5\n" + laser("10"));
-  ASSERT_EQ(log.streams.size(), 2U);
+  ASSERT_EQ(log.streams.size(), 3U);
   EXPECT_EQ(log.streams[1].T_base_sensor, (Pose2{0.1, -0.2, 0}));
   const LaserScan& scan = scan_of(log.events[1]);
   EXPECT_EQ(scan.angle_min_rad, -1.5);
@@ -53,8 +53,22 @@ TEST(MrptTextLog, ScanAndMount) {
   EXPECT_TRUE(scan.is_valid_range(scan.ranges_m[0]));
   EXPECT_FALSE(scan.is_valid_range(scan.ranges_m[1]));
   EXPECT_FALSE(scan.is_valid_range(scan.ranges_m[2]));
-  EXPECT_EQ(count(log, "unsupported message"), 1);
   EXPECT_EQ(count(log, "malformed line"), 0);
+}
+
+TEST(MrptTextLog, BeaconsBelongToTheScanOfTheirFrame) {
+  const Log log = read("FRAME 0\nBEACON 1 5.5\nBEACON 2 0\nBEACON 3 7.25\n" + laser("10") +
+                       "FRAME 1\nBEACON 1 4\nFRAME 2\nBEACON 2 -1\n" + laser("12"));
+  ASSERT_EQ(log.streams.size(), 3U);
+  EXPECT_EQ(log.streams[2].kind, StreamKind::kBeaconRanges);
+  ASSERT_EQ(log.events.size(), 5U) << "frame 1 has no stamp, frame 2 no reading";
+  const auto& ranges = *std::get<std::shared_ptr<const BeaconRanges>>(log.events[2].payload);
+  EXPECT_EQ(ranges.stamp, log.events[1].stamp);
+  ASSERT_EQ(ranges.readings.size(), 2U) << "a range of zero is none";
+  EXPECT_EQ(ranges.readings[1].id, "3");
+  EXPECT_EQ(ranges.readings[1].range_m, 7.25);
+  EXPECT_EQ(count(log, "beacon without stamp"), 1);
+  EXPECT_EQ(count(log, "malformed line"), 1);
 }
 
 TEST(MrptTextLog, MalformedLines) {

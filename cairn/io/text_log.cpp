@@ -77,6 +77,11 @@ void TextLogBuilder::add(Event event) {
   log_.events.push_back(std::move(event));
 }
 
+void TextLogBuilder::add_beacons(StreamId stream, BeaconRanges ranges) {
+  const Time stamp = ranges.stamp;
+  add({stamp, stamp, stream, std::make_shared<const BeaconRanges>(std::move(ranges))});
+}
+
 void TextLogBuilder::add_odometry(StreamId stream, Time stamp, Time arrival, const Pose2& T_odom_base) {
   add({stamp, arrival, stream, Odometry{stamp, T_odom_base}});
 }

@@ -33,6 +33,8 @@ class TextLogBuilder {
   /// `scan->range_max_m == 0`: not told by the message. Then finish() sets it, see read_text_log.
   void add_scan(StreamId stream, Time arrival, std::shared_ptr<LaserScan> scan);
 
+  void add_beacons(StreamId stream, BeaconRanges ranges);
+
   /// Mounting pose as one message implies it. Kept if all messages of the stream agree within 5 cm and 3
   /// degrees.
   void observe_mount(StreamId stream, const Pose2& T_base_sensor);

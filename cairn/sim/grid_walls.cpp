@@ -1,5 +1,7 @@
 #include "cairn/sim/grid_walls.hpp"
 
+#include <cmath>
+
 namespace cairn {
 namespace {
 
@@ -51,5 +53,21 @@ class EdgeCollector {
 }  // namespace
 
 std::vector<Wall> walls_of_grid(const OccupancyGrid& grid) { return EdgeCollector(grid).collect(); }
+
+OccupancyGrid cleared_along(const OccupancyGrid& grid, const Trajectory& path, double clear_m) {
+  const GridGeometry& g = grid.geometry();
+  const double reach = clear_m / g.resolution_m;
+  std::vector<OccupancyGrid::Cell> cells = grid.cells();
+  for (const StampedPose& p : path) {
+    const Point2 at = g.to_cells({p.pose.x, p.pose.y});
+    for (int row = static_cast<int>(std::floor(at.y - reach)); row <= at.y + reach; ++row) {
+      for (int column = static_cast<int>(std::floor(at.x - reach)); column <= at.x + reach; ++column) {
+        const bool near = std::hypot(column + 0.5 - at.x, row + 0.5 - at.y) < reach;
+        if (near && g.contains(column, row)) cells[g.index(column, row)] = 0;
+      }
+    }
+  }
+  return {g, std::move(cells), grid.thresholds()};
+}
 
 }  // namespace cairn

@@ -28,5 +28,17 @@ TEST(GridWalls, CellsAtTheEdgeOfTheGridHaveWallsToo) {
   EXPECT_TRUE(walls_of_grid({{2, 2, 1.0, {}}, {0, 0, -1, 0}}).empty());
 }
 
+TEST(GridWalls, WhereARobotWasIsFree) {
+  std::vector<OccupancyGrid::Cell> cells(100, 100);
+  const OccupancyGrid full({10, 10, 0.1, {}}, cells);
+  const OccupancyGrid cleared =
+      cleared_along(full, {{Time{}, {0.55, 0.55, 0.0}}, {time_from_seconds(1), {0.02, 0.98, 0.0}}}, 0.15);
+  EXPECT_EQ(cleared.count(CellState::kFree), 9U + 4U)
+      << "a block of nine; at the corner what lies on the grid";
+  EXPECT_EQ(cleared.state_at({0.65, 0.65}), CellState::kFree);
+  EXPECT_EQ(cleared.state_at({0.75, 0.55}), CellState::kOccupied);
+  EXPECT_EQ(cleared_along(full, {{Time{}, {0.55, 0.55, 0.0}}}, 0.0).count(CellState::kFree), 0U);
+}
+
 }  // namespace
 }  // namespace cairn

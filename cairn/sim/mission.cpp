@@ -2,6 +2,7 @@
 
 #include "cairn/core/angle.hpp"
 #include "cairn/core/errors.hpp"
+#include "cairn/sim/floor_plan.hpp"
 #include "cairn/sim/simulation_random.hpp"
 #include "cairn/sim/tour_driver.hpp"
 
@@ -176,10 +177,45 @@ void kidnap(const World& world, const std::vector<Point2>& points, RobotDrive& d
   }
 }
 
+bool crosses(const Segment& way, const Segment& wall) {
+  const auto side = [](const Segment& line, const Point2& p) {
+    return (line.b.x - line.a.x) * (p.y - line.a.y) - (line.b.y - line.a.y) * (p.x - line.a.x);
+  };
+  return side(way, wall.a) * side(way, wall.b) < 0.0 && side(wall, way.a) * side(wall, way.b) < 0.0;
+}
+
+// A recorded drive may come near to walls, but goes through none.
+void check_recorded(const World& world) {
+  constexpr double kStep_m = 0.05;
+  const Trajectory& path = world.path;
+  Point2 at{path.front().pose.x, path.front().pose.y};
+  for (const StampedPose& p : path) {
+    const Point2 next{p.pose.x, p.pose.y};
+    if (std::hypot(next.x - at.x, next.y - at.y) < kStep_m) continue;
+    for (const Wall& wall : world.solid->walls()) {
+      if (!crosses({at, next}, {wall.a, wall.b})) continue;
+      throw ConfigurationError("robot.path", "leads through a wall at " + text_of(next),
+                               "check that path and floor share a frame, or set robot.clear_m");
+    }
+    at = next;
+  }
+}
+
+RobotDrive drive_recorded(const World& world) {
+  check_recorded(world);
+  RobotDrive driven{world.path, 0};
+  if (world.options.robot.kidnap_at_s > 0.0) {
+    throw ConfigurationError("robot.kidnap_at_s", "does not go with a recorded mission",
+                             "choose another robot.mission");
+  }
+  return driven;
+}
+
 }  // namespace
 
 RobotDrive drive_mission(const World& world, std::uint64_t seed) {
   const WorldRobotOptions& robot = world.options.robot;
+  if (robot.mission == "recorded") return drive_recorded(world);
   Duration duration = duration_from_seconds(robot.duration_s);
   if (robot.mission == "random" && duration == Duration::zero()) duration = kRandomDrive;
   check_free(world, {world.start.x, world.start.y}, "robot.start");

@@ -17,6 +17,7 @@ struct RobotDrive {
 /// Plans the mission and drives it. Waypoints are reached on the shortest ways around walls; a polyline is
 /// driven straight; a random mission goes to random free places; a coverage drive goes over all free space in
 /// lanes. The way begins again at its first point if the duration is longer.
+/// A recorded mission is World::path.
 /// @throws ConfigurationError with where() = the key for points in walls, ways through walls, points that
 /// cannot be
 ///   reached, and a kidnapping to a place that is not free

@@ -112,5 +112,50 @@ TEST(Mission, AKidnappedRobotGoesOnFromElsewhere) {
             "robot.kidnap_to");
 }
 
+World recorded_world(
+    const Trajectory& path, const std::function<void(WorldOptions&)>& change = [](WorldOptions&) {}) {
+  WorldOptions options = test::small_world_options();
+  options.walls.push_back({"divider", "0,3 6,3", false, "opaque", true});
+  options.robot.mission = "recorded";
+  change(options);
+  return make_world(options, {}, path);
+}
+
+TEST(Mission, ARecordedDriveIsRepeated) {
+  const Time start = time_from_seconds(1e9);
+  const Trajectory path{{start, {1, 1, 0}},
+                        {start + std::chrono::seconds(2), {3, 1, 0}},
+                        {start + std::chrono::seconds(3), {3, 1, 1}}};
+  const Trajectory truth = drive_mission(recorded_world(path), 1).truth;
+  ASSERT_EQ(truth.size(), 151U) << "50 poses a second";
+  EXPECT_EQ(truth.front(), (StampedPose{Time{}, {1, 1, 0}}));
+  EXPECT_NEAR(truth[50].pose.x, 2.0, 1e-9);
+  EXPECT_NEAR(truth.back().pose.theta, 1.0, 1e-9);
+  EXPECT_EQ(
+      drive_mission(recorded_world(path, [](WorldOptions& o) { o.robot.duration_s = 1.0; }), 1).truth.size(),
+      51U);
+}
+
+TEST(Mission, ARecordedDriveThroughAWallIsRefused) {
+  const auto where = [](
+                         const Trajectory& path,
+                         const std::function<void(WorldOptions&)>& change = [](WorldOptions&) {}) {
+    try {
+      drive_mission(recorded_world(path, change), 1);
+    } catch (const ConfigurationError& error) {
+      return error.where();
+    }
+    return std::string("accepted");
+  };
+  const Time end = time_from_seconds(4);
+  EXPECT_EQ(where({{Time{}, {1, 2, 0}}, {end, {1, 4, 0}}}), "robot.path");
+  EXPECT_EQ(where({{Time{}, {1, 2, 0}}}), "robot.path") << "one pose is no path";
+  EXPECT_EQ(where({}), "robot.path");
+  EXPECT_EQ(where({{Time{}, {1, 2, 0}}, {time_from_seconds(1e6), {2, 2, 0}}}), "robot.path") << "ten days";
+  const Trajectory good{{Time{}, {1, 0.1, 0}}, {end, {2, 0.1, 0}}};
+  EXPECT_EQ(where(good), "accepted") << "nearer to a wall than the radius, but the robot was there";
+  EXPECT_EQ(where(good, [](WorldOptions& o) { o.robot.kidnap_at_s = 1.0; }), "robot.kidnap_at_s");
+}
+
 }  // namespace
 }  // namespace cairn

@@ -80,6 +80,7 @@ void WorldBeaconRadioOptions::visit(OptionVisitor& v) {
   visit_mount(v, mount, timing);
   v.flag({"ranges", "It measures ranges"}, ranges);
   v.flag({"levels", "It measures levels"}, levels);
+  v.number({"height_m", "Of the antenna above the floor"}, height_m, {0.0, 1000.0});
   v.number({"sigma_range_m", "Noise of each range"}, sigma_range_m, kNoise);
   v.number({"bias_m", "Added to each range"}, bias_m, {-10.0, 10.0});
   v.number({"nlos_mean_m", "Mean of what each wall between adds to a range (exponential)"}, nlos_mean_m,
@@ -122,6 +123,12 @@ void WorldGyroscopeOptions::visit(OptionVisitor& v) {
 void WorldTransmitterOptions::visit(OptionVisitor& v) {
   v.text({"at", "x,y"}, at);
   v.number({"power_dbm", "Level at one metre"}, power_dbm, kLevel);
+  v.number({"height_m", "Of a beacon above the floor"}, height_m, {0.0, 1000.0});
+  v.number({"wrong_share", "Share of a beacon's ranges that are anything shorter than the truth"},
+           wrong_share, {0.0, 1.0});
+  v.number({"obstructed_share", "Share of a beacon's ranges that are late, whatever the map shows"},
+           obstructed_share, {0.0, 1.0});
+  v.number({"obstructed_mean_m", "Mean of what these are late (exponential)"}, obstructed_mean_m, kNoise);
 }
 
 void WorldLandmarkOptions::visit(OptionVisitor& v) {

@@ -87,6 +87,7 @@ struct WorldBeaconRadioOptions {
   WorldTimingOptions timing{.rate_hz = 4.0};
   bool ranges = true;              ///< it measures ranges
   bool levels = true;              ///< it measures levels
+  double height_m = 1.0;           ///< of the antenna above the floor
   double sigma_range_m = 0.05;     ///< noise of each range
   double bias_m = 0.0;             ///< added to each range
   double nlos_mean_m = 0.3;        ///< mean of what each wall between adds to a range (exponential)
@@ -146,6 +147,11 @@ struct WorldTransmitterOptions {
   std::string name;
   std::string at = "0,0";    ///< x,y
   double power_dbm = -40.0;  ///< level at one metre
+  // Of beacons alone:
+  double height_m = 1.0;          ///< above the floor: ranges are slant
+  double wrong_share = 0.0;       ///< of its ranges: anything shorter than the truth
+  double obstructed_share = 0.0;  ///< of its ranges that are late, whatever the map shows between
+  double obstructed_mean_m = 1;   ///< mean of what those are late (exponential)
 
   void visit(OptionVisitor& visitor);
 };

@@ -1,5 +1,6 @@
 #include "cairn/sim/world.hpp"
 
+#include "cairn/core/angle.hpp"
 #include "cairn/core/errors.hpp"
 #include "cairn/maps/wall_drawing.hpp"
 #include "cairn/sim/sensor_check.hpp"
@@ -100,6 +101,56 @@ void check_start(const WorldRobotOptions& robot, const Pose2& start, const std::
       "move it at least robot.radius_m (" + std::to_string(robot.radius_m).substr(0, 4) + ") away");
 }
 
+constexpr std::size_t kMostRecordedPoses = 50 * 36000;  // ten hours
+
+// References jitter, by their own noise and by stamps that run backwards: a robot would not drive that. Each
+// pose is the mean of those within half a second, fewer at the ends.
+Trajectory smoothed(const Trajectory& path) {
+  constexpr std::size_t kHalf = 25;
+  std::vector<double> x{0.0}, y{0.0}, heading{0.0};  // sums
+  double turned = path.front().pose.theta;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (i > 0) turned += angle_difference(path[i].pose.theta, path[i - 1].pose.theta);
+    x.push_back(x.back() + path[i].pose.x);
+    y.push_back(y.back() + path[i].pose.y);
+    heading.push_back(heading.back() + turned);
+  }
+  Trajectory smooth;
+  smooth.reserve(path.size());
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const std::size_t half = std::min({kHalf, i, path.size() - 1 - i});
+    const std::size_t first = i - half, end = i + half + 1;
+    const double n = static_cast<double>(end - first);
+    smooth.push_back({path[i].stamp,
+                      {(x[end] - x[first]) / n, (y[end] - y[first]) / n,
+                       normalize_angle((heading[end] - heading[first]) / n)}});
+  }
+  return smooth;
+}
+
+// The drive that a recorded mission repeats: stamps from zero, 50 poses a second.
+Trajectory recorded_path(const WorldRobotOptions& robot, const Trajectory& recorded) {
+  if (robot.mission != "recorded") return {};
+  if (recorded.size() < 2) {
+    throw ConfigurationError("robot.path", "holds fewer than two poses, or is missing",
+                             "name a trajectory, or choose another robot.mission");
+  }
+  const Duration step = std::chrono::milliseconds(20);
+  const Time first = recorded.front().stamp;
+  Duration length = recorded.back().stamp - first;
+  if (robot.duration_s > 0.0) length = std::min(length, duration_from_seconds(robot.duration_s));
+  if (static_cast<std::size_t>(length / step) > kMostRecordedPoses)
+    throw ConfigurationError("robot.path", "lasts longer than ten hours", "set robot.duration_s");
+  Trajectory path;
+  auto after = recorded.begin() + 1;
+  for (Duration t{}; t <= length; t += step) {
+    while (after->stamp < first + t) ++after;
+    const Trajectory pair{*(after - 1), *after};
+    path.push_back({Time{} + t, *pose_at(pair, first + t)});
+  }
+  return smoothed(path);
+}
+
 // Free cells at the edge of the drawing are outside: the walls have let the flood through.
 void check_enclosed(const OccupancyGrid& grid) {
   const GridGeometry& g = grid.geometry();
@@ -124,7 +175,7 @@ bool WorldDoor::is_closed(double time_s) const {
   return std::fmod(time_s + phase_s, period) >= open_s;
 }
 
-World make_world(const WorldOptions& options, std::span<const Wall> floor) {
+World make_world(const WorldOptions& options, std::span<const Wall> floor, const Trajectory& recorded) {
   const double ceiling_m = options.ceiling.height_m;
   Walls walls{{floor.begin(), floor.end()},
               std::vector<HeightSpan>(floor.size(), {0.0, ceiling_m}),
@@ -140,10 +191,11 @@ World make_world(const WorldOptions& options, std::span<const Wall> floor) {
                              "name walls, a built_in world, or a file");
   }
   check_sensors(options);
-  const Pose2 start = parse_world_pose("robot.start", options.robot.start);
-  check_start(options.robot, start, walls.solid);
+  Trajectory path = recorded_path(options.robot, recorded);
+  const Pose2 start = path.empty() ? parse_world_pose("robot.start", options.robot.start) : path.front().pose;
+  if (path.empty()) check_start(options.robot, start, walls.solid);
   const OccupancyGrid planning = draw(walls.solid, kPlanningResolution_m, start);
-  check_enclosed(planning);
+  if (path.empty()) check_enclosed(planning);  // maps of real floors have ragged edges
   OccupancyGrid map = draw(walls.map, options.map_resolution_m, start);
   return {options,
           std::make_shared<const VectorMap>(std::move(walls.solid)),
@@ -151,7 +203,8 @@ World make_world(const WorldOptions& options, std::span<const Wall> floor) {
           std::move(map),
           RoutePlanner(planning, options.robot.radius_m + kPlanningSlack_m),
           std::move(doors),
-          start};
+          start,
+          std::move(path)};
 }
 
 }  // namespace cairn

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cairn/core/trajectory.hpp"
 #include "cairn/maps/occupancy_grid.hpp"
 #include "cairn/maps/vector_map.hpp"
 #include "cairn/sim/route_planner.hpp"
@@ -43,16 +44,21 @@ struct World {
   RoutePlanner planner;  ///< for the robot, doors open
   std::vector<WorldDoor> doors;
   Pose2 start;
+  Trajectory path;  ///< of a recorded mission, 50 Hz from time zero; empty for all others
 };
 
 /// Builds the world and checks it.
 /// @param floor  walls from the file that the options name, else none
+/// @param recorded  poses of a real robot that a recorded mission repeats (T_map_base); then robot.start is
+/// the
+///   first of them, and no wall may be crossed, but walls may come nearer than robot.radius_m
 /// @throws ConfigurationError whose where() is the dotted key of what does not fit: a wall of fewer than two
 /// points, a
 ///   closed one of fewer than three, floors that do not enclose the start, a start in a wall, a sensor that
 ///   sticks out of the robot, no sensor, limits that enclose nothing, more messages than fit into memory, a
 ///   radio or a detector without anything to find, a name that two sensors share
-World make_world(const WorldOptions& options, std::span<const Wall> floor = {});
+World make_world(const WorldOptions& options, std::span<const Wall> floor = {},
+                 const Trajectory& recorded = {});
 
 /// The options of a built-in world: "office" (another one for every seed), "cross" (15 m, fully symmetric),
 /// "hall" (60 x 60 m, ringed by offices), "corridor" (100 m, the same every 5 m), "warehouse". Empty for an

@@ -31,8 +31,10 @@ class Wheels {
     const double way = std::hypot(moved.x, moved.y) + half_base * std::abs(moved.theta);
     const auto n = random.normal4(0, kNoise);
     const double sigma_m = options_.sigma_per_sqrt_metre_m * std::sqrt(way);
-    Twist2 told{0.5 * (left + right) + sigma_m * n[0], moved.y + (moved.y != 0.0 ? sigma_m * n[1] : 0.0),
-                (right - left) / (options_.wheel_base_m * base_) +
+    const double ahead = 0.5 * (left + right), turn = (right - left) / (options_.wheel_base_m * base_);
+    Twist2 told{options_.distance_factor * ahead + sigma_m * n[0],
+                moved.y + (moved.y != 0.0 ? sigma_m * n[1] : 0.0),
+                options_.turn_factor * turn + options_.drift_rad_per_m * moved.x +
                     options_.sigma_per_sqrt_metre_rad * std::sqrt(way) * n[2]};
     const double factor = slip_factor(way, dt_s, random) * (options_.reversed ? -1.0 : 1.0);
     return {factor * told.x, factor * told.y, factor * told.theta};

@@ -69,5 +69,17 @@ TEST(WorldOdometry, AKidnappingIsNotSeen) {
   EXPECT_LT(distance(last(perfect(), drive), last(perfect())), 0.05);
 }
 
+TEST(WorldOdometry, TellsTheSystematicErrorsItIsGiven) {
+  WorldOdometryOptions options = perfect();
+  options.distance_factor = 1.02;
+  options.turn_factor = 0.98;
+  options.drift_rad_per_m = -0.03;
+  RobotDrive step;
+  step.truth = {{Time{}, {}}, {time_from_seconds(0.02), exp({0.5, 0.0, 0.2})}};
+  const Twist2 told = log(last(options, step));
+  EXPECT_NEAR(told.x, 1.02 * 0.5, 1e-9);
+  EXPECT_NEAR(told.theta, 0.98 * 0.2 - 0.03 * 0.5, 1e-9);
+}
+
 }  // namespace
 }  // namespace cairn

@@ -107,6 +107,9 @@ void WorldOdometryOptions::visit(OptionVisitor& v) {
   v.number({"rate_hz", "Messages per second"}, rate_hz, kRate);
   v.number({"latency_s", "From measuring to arrival"}, latency_s, {0.0, 10.0});
   v.number({"wheel_base_m", "Distance of the wheels"}, wheel_base_m, {0.01, 10.0});
+  v.number({"distance_factor", "Systematic: told = factor * true"}, distance_factor, {0.5, 2.0});
+  v.number({"turn_factor", "Likewise of turns"}, turn_factor, {0.5, 2.0});
+  v.number({"drift_rad_per_m", "Turn told for each metre driven"}, drift_rad_per_m, {-1.0, 1.0});
   v.number({"sigma_wheel_radius", "Systematic relative error of each wheel, drawn once"}, sigma_wheel_radius,
            {0.0, 0.5});
   v.number({"sigma_wheel_base", "Systematic relative error of the base, drawn once"}, sigma_wheel_base,
@@ -130,8 +133,15 @@ void WorldRobotOptions::visit(OptionVisitor& v) {
            {"differential", "omnidirectional"});
   v.text({"start", "x,y,yaw"}, start);
   v.choice(
-      {"mission", "waypoints: planned around walls; polyline: straight through the points; random; coverage"},
-      mission, {"waypoints", "polyline", "random", "coverage"});
+      {"mission",
+       "waypoints: planned around walls; polyline: straight through the points; random; coverage; recorded: "
+       "as `path` tells"},
+      mission, {"waypoints", "polyline", "random", "coverage", "recorded"});
+  v.text({"path", "recorded: file with the poses that a real robot had, relative to this file's folder"},
+         path);
+  v.text({"path_log", "recorded: the log whose scans number the poses of a path without stamps"}, path_log);
+  v.number({"clear_m", "recorded: cells of the floor's grid nearer to the path than this are free"}, clear_m,
+           {0.0, 5.0});
   v.text({"points", "x,y separated by blanks"}, points);
   v.number({"spacing_m", "Between the lanes of a coverage drive"}, spacing_m, {0.1, 1000.0});
   v.number({"duration_s", "0: once through the mission (random: 60 s)"}, duration_s, {0.0, 36000.0});
@@ -166,6 +176,9 @@ void WorldOptions::visit(OptionVisitor& v) {
            {"", "office", "cross", "hall", "corridor", "warehouse"});
   v.text({"file", "Floor from a file: x1,y1,x2,y2 text, GeoJSON, grid; relative to this file's folder"},
          file);
+  v.text(
+      {"presets", "Files of sensors and robots that are read before this one, separated by blanks; relative"},
+      presets);
   v.number({"map_resolution_m", "Of the map that goes with the log"}, map_resolution_m, {0.01, 1.0});
   visit_table(v, {"walls", "By name"}, walls);
   visit_table(v, {"furniture", "Boxes, by name"}, furniture);

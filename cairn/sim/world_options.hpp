@@ -72,6 +72,9 @@ struct WorldOdometryOptions {
   double rate_hz = 25.0;
   double latency_s = 0.0;
   double wheel_base_m = 0.4;
+  double distance_factor = 1.0;  ///< systematic: told = factor * true, as `cairn tune odometry` finds it
+  double turn_factor = 1.0;
+  double drift_rad_per_m = 0.0;       ///< turn told for each metre driven
   double sigma_wheel_radius = 0.003;  ///< systematic, relative, drawn once
   double sigma_wheel_base = 0.01;
   double sigma_per_sqrt_metre_m = 0.005;    ///< random, of the distance
@@ -89,11 +92,16 @@ struct WorldOdometryOptions {
 struct WorldRobotOptions {
   std::string drive = "differential";  ///< or omnidirectional
   std::string start = "0,0,0";
-  std::string mission = "waypoints";  ///< waypoints (planned), polyline (as given), random, coverage
-  std::string points;                 ///< of waypoints and polyline
-  double spacing_m = 2.0;             ///< between the lanes of a coverage drive
-  double duration_s = 0.0;            ///< 0: once through the mission (random: 60 s)
-  double radius_m = 0.3;              ///< no sensor sticks out, no wall comes nearer
+  std::string mission =
+      "waypoints";       ///< waypoints (planned), polyline (as given), random, coverage, recorded
+  std::string points;    ///< of waypoints and polyline
+  std::string path;      ///< of a recorded mission: file with the poses that a real robot had
+  std::string path_log;  ///< log whose scans number the poses of `path`, if that holds no stamps
+  double clear_m =
+      0.0;  ///< cells of a grid that are nearer to the recorded path are free: the robot was there
+  double spacing_m = 2.0;   ///< between the lanes of a coverage drive
+  double duration_s = 0.0;  ///< 0: once through the mission (random: 60 s)
+  double radius_m = 0.3;    ///< no sensor sticks out, no wall comes nearer
   double speed_mps = 0.9;
   double turn_rate_radps = 1.2;
   double kidnap_at_s = 0.0;  ///< 0: never
@@ -128,6 +136,7 @@ struct WorldLaserOptions {
 struct WorldOptions {
   std::string built_in;  ///< cross, hall, corridor, warehouse, office; may be empty
   std::string file;      ///< floor from a file (vector text, GeoJSON, grid); may be empty
+  std::string presets;   ///< files that are read before this one, separated by blanks; may be empty
   double map_resolution_m = 0.05;
   std::vector<WorldWallOptions> walls;
   std::vector<WorldBoxOptions> furniture;

@@ -8,7 +8,8 @@ namespace {
 constexpr std::uint64_t kBeaconFields = std::uint64_t{1} << 32;  // behind those of all access points
 
 // What decides about one transmitter in one measurement.
-enum Draw : std::uint16_t { kNoise = 0, kFate = 1, kDelay = 2 };
+constexpr std::uint16_t kNoise = 0, kFate = 1, kWrong = 2, kObstructed = 3, kObstructedDelay = 4;
+constexpr std::uint16_t kDelay = 5;  // and the following: one for each wall
 
 double level_at(const SensorView& view, const WorldScene& scene, const Transmitter& transmitter,
                 const Point2& receiver) {
@@ -23,6 +24,12 @@ double delay_m(int walls, double mean_m, const RandomStream& random, std::uint32
   for (int wall = 0; wall < walls; ++wall)
     delay -= mean_m * std::log(random.uniform(item, static_cast<std::uint16_t>(kDelay + wall)));
   return delay;
+}
+
+// What stands between and the world does not hold.
+double obstruction_m(const WorldTransmitterOptions& beacon, const RandomStream& random, std::uint32_t item) {
+  if (random.uniform(item, kObstructed) >= beacon.obstructed_share) return 0.0;
+  return -beacon.obstructed_mean_m * std::log(random.uniform(item, kObstructedDelay));
 }
 
 Point2 receiver_of(const SensorView& view, const std::string& mount) {
@@ -42,7 +49,8 @@ std::vector<Transmitter> make_transmitters(const std::string& table,
     transmitters.push_back(
         {o.name, parse_point(table + "." + o.name + ".at", o.at), o.power_dbm,
          ShadowingField(radio.sigma_shadowing_db, radio.shadowing_distance_m,
-                        static_cast<std::uint64_t>(radio.pattern), first + transmitters.size())});
+                        static_cast<std::uint64_t>(radio.pattern), first + transmitters.size()),
+         o});
   }
   return transmitters;
 }
@@ -79,8 +87,13 @@ BeaconRanges simulate_beacons(const SensorView& view, const WorldBeaconRadioOpti
     if (o.levels) reading.rssi_dbm = std::min(level, 50.0);
     if (o.ranges) {
       const int walls = walls_on_line(scene, receiver, at);
-      const double range =
-          distance + o.bias_m + delay_m(walls, o.nlos_mean_m, random, i) + o.sigma_range_m * noise[0];
+      const WorldTransmitterOptions& beacon = beacons[i].options;
+      const double late_m = delay_m(walls, o.nlos_mean_m, random, i) + obstruction_m(beacon, random, i);
+      const double slant = std::hypot(distance, beacon.height_m - o.height_m);
+      const auto wrong = random.uniform4(i, kWrong);
+      const double range = wrong[0] < beacon.wrong_share
+                               ? wrong[1] * slant
+                               : slant + o.bias_m + late_m + o.sigma_range_m * noise[0];
       reading.range_m = std::max(0.0, range);
     }
     heard.readings.push_back(std::move(reading));

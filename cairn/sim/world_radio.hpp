@@ -19,6 +19,7 @@ struct Transmitter {
   Point2 at;
   double power_dbm = 0.0;
   ShadowingField shadowing;
+  WorldTransmitterOptions options = {};
 };
 
 /// @param table  "access_points" or "beacons", whose transmitters have fields of their own

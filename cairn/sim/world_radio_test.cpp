@@ -126,5 +126,24 @@ TEST(WorldBeacons, TellWhatTheRadioMeasures) {
       << "connected, no more";
 }
 
+// The share within 6 standard deviations (alpha 2e-9), the mean delay likewise.
+TEST(WorldBeacons, AnObstructedBeaconIsLateAndRangesAreSlant) {
+  const auto scene = scene_without_shadowing();
+  const auto beacons = transmitters(scene, "beacons", {{"b", "5,1", -30.0, 4.0, 0.0, 0.3, 2.0}});
+  WorldBeaconRadioOptions o;
+  o.missed_share = 0.0;
+  o.sigma_range_m = 0.0;
+  int late = 0;
+  double delay = 0.0;
+  for (std::uint64_t index = 0; index < kScans; ++index) {
+    const double error = simulate_beacons(scene.view(index), o, beacons).readings.at(0).range_m - 5.0;
+    EXPECT_GE(error, -1e-9) << "four metres away, three above";
+    late += error > 1e-9 ? 1 : 0;
+    delay += error;
+  }
+  EXPECT_NEAR(late / static_cast<double>(kScans), 0.3, 6.0 * std::sqrt(0.3 * 0.7 / kScans));
+  EXPECT_NEAR(delay / late, 2.0, 6.0 * 2.0 / std::sqrt(0.3 * kScans));
+}
+
 }  // namespace
 }  // namespace cairn

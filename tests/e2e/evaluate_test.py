@@ -186,6 +186,44 @@ inputs:
         self.refused("inputs: [\n", "bad.yaml:")
         self.assertEqual(self.evaluate(campaign="missing.yaml").returncode, 3)
 
+    def test_sensors_of_a_log_and_of_its_world_are_compared(self):
+        """The log is itself simulated, in the same world: both sides must agree."""
+        world = ("walls: {outline: {points: '0,0 8,0 8,6 0,6', closed: true}}\nrobot: {start: '1,1,0', points: '7,5 1,1', duration_s: 40}\n"
+                 "lasers: {laser: {rate_hz: 5, beams: 91}}\n")
+        self.write("w.yaml", world)
+        self.assertEqual(self.cairn("simulate", "w.yaml", "--out", "real.mcap", "--seed", 9).returncode, OK)
+        self.write("again.yaml", world.replace("points: '7,5 1,1', duration_s: 40", "mission: recorded, path: real.truth.tum"))
+        text = "task: sensors\nseeds: 1..2\ninputs:\n  room: {log: real.mcap, map: real.map.yaml, reference: real.truth.tum, world: again.yaml}\n"
+        self.write("c.yaml", text)
+        result = self.evaluate()
+        self.assertEqual(result.returncode, OK, result.stderr)
+        self.assertIn("3 of 3 runs", result.stdout)
+        self.assertIn("| measured - expected |", result.stdout)
+        rows = self.rows()
+        self.assertEqual([(row["variant"], row["seed"]) for row in rows], [("real", "1"), ("simulated", "1"), ("simulated", "2")])
+        for row in rows:
+            self.assertAlmostEqual(float(row["no_return_share"]), 0.005, delta=0.004)
+        self.assertTrue((self.folder / "out/figures/room.svg").read_text().startswith("<svg"))
+        self.assertIn("0 cells run, 3 were finished before", self.evaluate().stderr)
+        self.write("again.yaml", (self.folder / "again.yaml").read_text() + "\n# changed")
+        self.assertIn("3 cells run", self.evaluate().stderr)
+        self.refused(text.replace("world: again.yaml", "start: global"), "bad.yaml:4:3: inputs.room", "sensors")
+        self.refused(text + "recipes: mcl\n", "bad.yaml:5:1: recipes")
+
+    def test_the_campaigns_that_are_shipped_can_be_read(self):
+        source = Path(__file__).resolve().parents[2]
+        data = Path(os.environ.get("CAIRN_DATA", source.parent / "shared/data"))
+        names = [path for path in sorted((source / "campaigns").glob("*.yaml")) if "\ninputs:" in path.read_text()]
+        self.assertGreaterEqual(len(names), 6)
+        for path in names:
+            text = path.read_text()
+            if "$CAIRN_DATA" in text and not data.exists() or "../build/" in text:
+                continue  # needs recordings, or a map that scripts/experiments makes
+            result = subprocess.run([PROGRAM, "evaluate", path, "--merge", "--out", self.folder / path.stem], capture_output=True,
+                                    text=True, env={**os.environ, "CAIRN_DATA": str(data)})
+            self.assertEqual(result.returncode, FAILED, f"{path.name}: {result.stderr}")
+            self.assertIn("cells are not finished", result.stderr)
+
     def test_a_folder_of_something_else_is_left_alone(self):
         (self.folder / "mine").mkdir()
         (self.folder / "mine/letter.txt").write_text("dear")

@@ -156,6 +156,65 @@ class Simulate(unittest.TestCase):
         self.assertEqual(self.simulate("nowhere.yaml", "--out", "w.log").returncode, USAGE)
         self.assertEqual(self.simulate("office").returncode, USAGE)
 
+    def test_what_lies_in_walls_or_is_no_size_is_refused(self):
+        self.refused("robot:", "furniture:\n  box: {depth_m: 0}\nrobot:", "w.yaml:6:18", "depth_m", "range")
+        self.refused("robot:", "furniture:\n  box: {center: '4,3', material: wood}\nrobot:", "w.yaml:6:34", "material", "wood")
+        self.refused("robot:", "furniture:\n  box: {bottom_m: 2, height_m: 1}\nrobot:", "w.yaml:6:9: furniture.box.bottom_m", "upper side")
+        self.refused("robot:", "people: {walking: -1}\nrobot:", "w.yaml:5:19", "walking", "range")
+        self.refused("robot:", "doors:\n  d: {from: '1,1', to: '1,1'}\nrobot:", "w.yaml:6:20: doors.d.to", "begins")
+        # A sensor in a wall: its robot would be in the wall, or it would stick out of the robot.
+        self.refused("start: 1,1,0", "start: 7.9,1,0", "w.yaml:6:3: robot.start", "wall")
+        self.refused("points: 7,5 1,1", "points: 7,5 1,1\n  kidnap_at_s: 3\n  kidnap_to: 0.1,3,0", "w.yaml:9:3: robot.kidnap_to", "wall")
+        self.refused("points: 7,5 1,1", "points: 7,5 1,1\n  radius_m: -1", "w.yaml:8:13", "radius_m", "range")
+        self.refused("start: 1,1,0", "start: 1,1,0\n  odometry: {rate_hz: 0}", "w.yaml:7:23", "rate_hz", "range")
+        for table in ["sonars", "depth_cameras", "wifi_radios", "beacon_radios", "landmark_detectors", "ceiling_cameras", "gyroscopes"]:
+            for rate in ["0", "1e9"]:
+                self.refused("lasers:", f"{table}:\n  s: {{rate_hz: {rate}}}\nlasers:", "w.yaml:9:16", "rate_hz", "range")
+        self.refused("robot:", "presets: none.yaml\nrobot:", "none.yaml")
+        self.refused("points: 7,5 1,1", "mission: recorded", "w.yaml:5:1: robot.path", "fewer than two")
+
+    def test_presets_come_before_the_world(self):
+        (self.folder / "preset.yaml").write_text("lasers: {front: {beams: 45, rate_hz: 5}}\nrobot: {speed_mps: 0.5}\n")
+        (self.folder / "w.yaml").write_text("presets: preset.yaml\n" + WORLD)
+        printed = self.simulate("w.yaml", "--print")
+        self.assertEqual(printed.returncode, OK, printed.stderr)
+        self.assertIn("beams: 45", printed.stdout)
+        self.assertIn("speed_mps: 0.5", printed.stdout)
+        self.assertRegex(printed.stdout, "front:(\n.*)*?\n *rate_hz: 10", "the world's own keys come last")
+
+    def test_the_noise_of_sensors_is_learnt_back(self):
+        """A drive with known noise, and again along its truth: `log noise` and `tune` find what the simulator was told.
+        Bounds are five standard errors or more (30 to 200 thousand readings)."""
+        beacons = "beacons:\n  a: {at: '0.1,0.1', obstructed_share: 0.4, obstructed_mean_m: 2}\n  b: {at: '7.9,5.9'}\n" \
+                  "beacon_radios:\n  uwb: {rate_hz: 10, bias_m: 0.2, sigma_range_m: 0.1, missed_share: 0}\n"
+        text = WORLD.replace("    rate_hz: 10\n", "    rate_hz: 10\n    sigma_range_m: 0.02\n    no_return_share: 0.03\n    random_share: 0.05\n") + beacons
+        (self.folder / "w.yaml").write_text(text)
+        self.assertEqual(self.simulate("w.yaml", "--out", "w.mcap", "--duration", 120).returncode, OK)
+        (self.folder / "again.yaml").write_text(text.replace("  points: 7,5 1,1\n", "  mission: recorded\n  path: w.truth.tum\n"))
+        self.assertEqual(self.simulate("again.yaml", "--out", "again.mcap").returncode, OK)
+        inputs = ["--map", "w.map.yaml", "--reference", "w.truth.tum", "--world", "w.yaml"]
+        for log in ["w.mcap", "again.mcap"]:
+            run = subprocess.run([PROGRAM, "log", "noise", "--log", log, *inputs, "--out", "n"], cwd=self.folder,
+                                 capture_output=True, text=True, timeout=120)
+            self.assertEqual(run.returncode, OK, run.stderr)
+            noise = json.loads((self.folder / "n/noise.json").read_text())
+            found = noise["metrics"]
+            for key, truth, bound in [("no_return_share", 0.03, 0.005), ("scan_to_scan_far_share", 0.05, 0.02), ("uwb_bias_m", 0.2, 0.03),
+                                      ("uwb_sigma_m", 0.1, 0.02), ("uwb_late_share", 0.2, 0.06)]:
+                self.assertAlmostEqual(found[key], truth, delta=bound, msg=key)
+            self.assertLess(found["sigma_hit_m"], 0.06, "2 cm, and cells of 5 cm")
+            self.assertEqual(len(noise["distributions"]["beam"]), 201)
+        for sensor, name in [("laser", "front"), ("uwb", "uwb")]:
+            tuned = subprocess.run([PROGRAM, "tune", sensor, "--log", "w.mcap", *inputs, "--name", name, "--out", f"{sensor}.yaml"],
+                                   cwd=self.folder, capture_output=True, text=True, timeout=120)
+            self.assertEqual(tuned.returncode, OK, tuned.stderr)
+        # What was learnt is a preset for a world.
+        (self.folder / "w.yaml").write_text("presets: laser.yaml uwb.yaml\n" + WORLD + "beacons: {a: {at: '0.1,0.1'}, b: {at: '7.9,5.9'}}\n")
+        self.assertEqual(self.simulate("w.yaml", "--out", "w.mcap", "--duration", 5).returncode, OK)
+        nothing = subprocess.run([PROGRAM, "tune", "uwb", "--log", "w.mcap", *inputs[:4]], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(nothing.returncode, USAGE)
+        self.assertIn("beacon", nothing.stderr)
+
     def test_the_noise_of_the_wheels_is_learnt_back(self):
         """What the simulator was told is found by `cairn tune odometry` within six of its standard errors (false alarm
         below 1e-6 each)."""

@@ -16,6 +16,17 @@ function select(label, names, change) {
   return el('label', {}, label, el('select', { onchange: (event) => change(event.target.value) }, ...options));
 }
 
+// Pictures that were drawn by the command (cairn/eval/campaign_figures.cpp).
+function drawFigures({ figures = [] }, parent) {
+  parent.hidden = figures.length === 0;
+  for (const svg of figures) {
+    const image = el('img', { alt: 'Distributions of the errors, real and simulated' });
+    image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg)}`;
+    image.style.maxWidth = '100%';
+    parent.append(image);
+  }
+}
+
 // Which metric and which input the charts show; every chart redraws itself from it.
 function makeChoices(data) {
   const inputs = [...new Set(data.results.map((result) => result.input))];
@@ -38,7 +49,9 @@ function main() {
     drawComparisons(data, byId('comparisons'));
     const choice = makeChoices(data);
     const charts = byId('charts');
-    for (const draw of [drawIntervals, drawErrorMap, drawConvergence, drawSurvival, drawDistribution]) draw(data, choice, charts);
+    const ofTraces = data.traces.some((trace) => trace.t.length > 0) ? [drawErrorMap, drawConvergence, drawSurvival, drawDistribution] : [];
+    for (const draw of [drawIntervals, ...ofTraces]) draw(data, choice, charts);
+    drawFigures(data, byId('figures'));
     drawCells(data, byId('cells'));
     onThemeChange.notifyOnChange();
     document.documentElement.dataset.ready = 'yes';
