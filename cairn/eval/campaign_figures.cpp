@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kBright_m = 0.5;
 constexpr double kLost_m = 1.0;
-constexpr double kShownQuantiles = 0.01;  // of the distributions: the tails would press the rest together
+constexpr double kShownQuantiles = 0.03;  // of the distributions: the tails would press the rest together
 constexpr int kTimeSteps = 100;
 constexpr std::size_t kCurvePoints = 200;
 constexpr std::size_t kMapPoints = 6000;
@@ -179,7 +179,8 @@ std::vector<CampaignFigure> sensor_figures(const CampaignReport& report) {
     std::vector<SvgPlot> panels;
     for (const std::string& name : names) {
       SvgPlot& plot = panels.emplace_back();
-      plot.title = input + ": " + name;
+      plot.title = input;
+      plot.title.append(": ").append(name);
       plot.x.label = name == "heading" || name == "turn" ? "error [rad]" : "error [m]";
       plot.y.label = "share below";
       for (const char* variant : {kVariantReal, kVariantSimulated})

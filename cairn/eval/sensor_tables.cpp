@@ -3,6 +3,7 @@
 #include "cairn/eval/campaign_figures.hpp"
 #include "cairn/eval/metric_style.hpp"
 
+#include <cmath>
 #include <set>
 
 namespace cairn {
@@ -18,7 +19,7 @@ const CampaignGroup* group_of(const CampaignReport& report, const std::string& i
 std::string mean_of(const CampaignGroup* group, const std::string& metric) {
   if (group == nullptr || group->metrics.count(metric) == 0) return "-";
   const MetricStyle style = style_of(metric);
-  const std::string mean = format_metric(style, group->metrics.at(metric).mean);
+  std::string mean = format_metric(style, group->metrics.at(metric).mean);
   if (group->cells < 2) return mean;
   return mean + " (" + format_metric(style, group->smallest.at(metric)) + " to " +
          format_metric(style, group->largest.at(metric)) + ")";
@@ -49,7 +50,7 @@ std::string spread_of(const std::vector<double>& quantiles, const MetricStyle& s
   if (quantiles.empty()) return "-";
   std::string text;
   for (const double share : {0.05, 0.5, 0.95}) {
-    const auto i = static_cast<std::size_t>(share * static_cast<double>(quantiles.size() - 1) + 0.5);
+    const auto i = static_cast<std::size_t>(std::lround(share * static_cast<double>(quantiles.size() - 1)));
     text += (text.empty() ? "" : " / ") + format_metric(style, quantiles[i]);
   }
   return text;

@@ -218,8 +218,8 @@ std::string render_svg(std::span<const SvgPlot> panels, int columns) {
                      "\" font-family=\"sans-serif\" font-size=\"11\" fill=\"#222\">\n<rect width=\"100%\" "
                      "height=\"100%\" fill=\"#fff\"/>\n";
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    const Panel panel(panels[i], kWidth * static_cast<double>(i % per_row),
-                      kHeight * static_cast<double>(i / per_row));
+    const std::size_t column = i % per_row, row = i / per_row;
+    const Panel panel(panels[i], kWidth * static_cast<double>(column), kHeight * static_cast<double>(row));
     text += panel.render();
   }
   return text + "</svg>\n";

@@ -110,6 +110,7 @@ LateRangeFit start_of(std::span<const std::vector<double>> groups) {
   LateRangeFit fit;
   fit.bias_m = median_of(all);
   std::vector<double> off;
+  off.reserve(all.size());
   for (const double error : all) off.push_back(std::abs(error - fit.bias_m));
   fit.sigma_m = std::max(0.02, 1.4826 * median_of(off));
   for (const auto& group : groups) fit.beacons.push_back({group.size(), 0.05, 0.2, 1.0});
