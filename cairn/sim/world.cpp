@@ -101,7 +101,7 @@ void check_start(const WorldRobotOptions& robot, const Pose2& start, const std::
       "move it at least robot.radius_m (" + std::to_string(robot.radius_m).substr(0, 4) + ") away");
 }
 
-constexpr std::size_t kMostRecordedPoses = 50 * 36000;  // ten hours
+constexpr std::size_t kMostRecordedPoses = 1'800'000;  // ten hours
 
 // References jitter, by their own noise and by stamps that run backwards: a robot would not drive that. Each
 // pose is the mean of those within half a second, fewer at the ends.
