@@ -150,15 +150,15 @@ std::string events_csv(const std::vector<Run>& runs) {
 std::string updates_csv(const std::vector<Run>& runs) {
   std::string text =
       "event,after_s,error_m,error_rad,right,state,probability,explained,blocked,beyond,fit,innovation_m,"
-      "weight,place,quality\n";
+      "weight,place,quality,among\n";
   for (const Run& r : runs) {
     for (const JudgedEstimate& e : r.estimates) {
       const Judgement& j = e.estimate.judgement;
       text += fmt::format(
-          "{},{:.3f},{:.3f},{:.3f},{:d},{},{:.5f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{},{:.4f}\n",
+          "{},{:.3f},{:.3f},{:.3f},{:d},{},{:.5f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{},{:.4f},{:d}\n",
           r.name, to_seconds(e.estimate.stamp - r.kidnapped), e.error_m, e.error_rad, e.right(),
-          to_string(j.state), j.probability, j.explained, j.blocked, j.beyond, j.fit, j.innovation,
-          e.estimate.weight, e.place, e.estimate.quality);
+          to_string(j.state), j.probability, j.explained, j.blocked, j.beyond, j.fit, j.innovation, e.weight,
+          e.place, e.estimate.quality, e.among);
     }
   }
   return text;

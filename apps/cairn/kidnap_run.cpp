@@ -68,6 +68,10 @@ Time random_instant(const PosedLog& run, double u) {
   return first + duration_from_seconds(u * span_s);
 }
 
+bool is_right(double error_m, double error_rad) { return error_m < kRight_m && error_rad < kRight_rad; }
+
+double turned_by(const Pose2& a, const Pose2& b) { return std::abs(normalize_angle(a.theta - b.theta)); }
+
 }  // namespace
 
 std::vector<Kidnapping> choose_kidnappings(const PosedLog& first, const PosedLog& second, int count,
@@ -114,7 +118,7 @@ Splice splice(const PosedLog& first, const PosedLog& second, const Kidnapping& k
   return joined;
 }
 
-bool JudgedEstimate::right() const { return error_m < kRight_m && error_rad < kRight_rad; }
+bool JudgedEstimate::right() const { return is_right(error_m, error_rad); }
 
 std::vector<JudgedEstimate> judge_run(const LocalizeResult& result, const Trajectory& reference) {
   std::vector<JudgedEstimate> run;
@@ -123,8 +127,12 @@ std::vector<JudgedEstimate> judge_run(const LocalizeResult& result, const Trajec
     const auto truth = pose_at(reference, estimate.stamp);
     if (!truth) continue;
     const auto& places = result.hypotheses[i].hypotheses;
-    run.push_back({estimate, places.empty() ? 0 : places.front().id, distance(estimate.T_map_base, *truth),
-                   std::abs(normalize_angle(estimate.T_map_base.theta - truth->theta))});
+    const bool among = std::any_of(places.begin(), places.end(), [&](const Hypothesis& place) {
+      return is_right(distance(place.T_map_base, *truth), turned_by(place.T_map_base, *truth));
+    });
+    run.push_back({estimate, places.empty() ? 0 : places.front().id,
+                   places.empty() ? 0.0 : places.front().weight, distance(estimate.T_map_base, *truth),
+                   turned_by(estimate.T_map_base, *truth), among});
   }
   return run;
 }

@@ -47,9 +47,11 @@ Splice splice(const PosedLog& first, const PosedLog& second, const Kidnapping& k
 /// An estimate against the truth.
 struct JudgedEstimate {
   Estimate estimate;
-  std::uint32_t place = 0;  ///< id of the heaviest hypothesis
+  std::uint32_t place = 0;  ///< id of the believed hypothesis
+  double weight = 0.0;      ///< of it among all, those beside the belief included
   double error_m = 0.0;
   double error_rad = 0.0;
+  bool among = false;  ///< one of the hypotheses is within 1 m and 45 degrees of the truth
   bool right() const;  ///< within 1 m and 45 degrees
 };
 

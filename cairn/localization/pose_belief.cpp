@@ -17,8 +17,9 @@ Eigen::Matrix3d carried(const Eigen::Matrix3d& covariance, const Pose2& from, co
   return jacobian * covariance * jacobian.transpose();
 }
 
-// Below this probability all scans are kept for a search.
-constexpr double kDoubt = 0.9;
+// Ids of places beside the belief begin here.
+constexpr std::uint32_t kFirstRival = 1'000'000;
+constexpr double kNegligible = 1e-3;
 
 double apart(const Pose2& a, const Pose2& b) {
   return distance(a, b) + std::abs(normalize_angle(a.theta - b.theta));
@@ -37,6 +38,7 @@ PoseBelief::PoseBelief(Parts parts)
       executor_(std::move(parts.executor)) {
   state_.used_at.resize(models_.size());
   state_.offered.resize(models_.size());
+  state_.explained.resize(models_.size());
   state_.monitor = Monitor::begin(models_.size(), global_start_ != nullptr);
 }
 
@@ -46,7 +48,8 @@ PoseBelief::Application PoseBelief::apply(const Event& event, const OdometryTrac
   ++state_.offered[event.stream];
   if (!state_.started && !may_begin(*models_[event.stream], event.payload)) return {};
   Application applied;
-  if (!state_.started || worth_an_update(event.stream, event.stamp, odometry, scheduler))
+  if (!state_.started || worth_an_update(event.stream, event.stamp, odometry, scheduler) ||
+      surprises(event, odometry))
     applied = update(event, odometry);
   state_.started = true;
   state_.stamp = event.stamp;
@@ -83,6 +86,17 @@ bool PoseBelief::may_begin(const StreamModel& model, const Event::Payload& z) co
   return !global_start_ || model.informs(z);
 }
 
+// A robot that stands still, and is carried away, would not look at its scans until it moves.
+bool PoseBelief::surprises(const Event& event, const OdometryTrack& odometry) const {
+  if (!recovery_) return false;
+  const StreamModel& model = *models_[event.stream];
+  const auto& last = state_.explained[event.stream];
+  if (!last || !model.informs(event.payload)) return false;
+  const Pose2 now =
+      state_.updated.T_map_base * odometry.control(state_.updated_at, event.stamp).T_before_after;
+  return recovery_->surprising(*last, model.explained_share(event.payload, now));
+}
+
 PoseBelief::Application PoseBelief::update(const Event& event, const OdometryTrack& odometry) {
   const StreamModel& model = *models_[event.stream];
   const bool informs = model.informs(event.payload);
@@ -110,7 +124,7 @@ PoseBelief::Application PoseBelief::update(const Event& event, const OdometryTra
   state_.offered[event.stream] = 0;
   summarize(moved.T_before_after, since_s);
   judge(model, event, moved.T_before_after);
-  recover(model, event, moved.T_before_after);
+  recover(model, event, moved.T_before_after, since_s);
   return {informs, {model.beams(event.payload), static_cast<std::int64_t>(filter_->size())}};
 }
 
@@ -135,7 +149,10 @@ void PoseBelief::judge(const StreamModel& model, const Event& event, const Pose2
   const Pose2 predicted = state_.pose * moved;
   state_.pose = now.T_map_base;
   now.stamp = event.stamp;
-  if (model.informs(event.payload)) now.quality = model.explained_share(event.payload, now.T_map_base);
+  if (model.informs(event.payload)) {
+    now.quality = model.explained_share(event.payload, now.T_map_base);
+    state_.explained[event.stream] = now.quality;
+  }
   now.judgement = monitor_.update(state_.monitor,
                                   {.stream = event.stream,
                                    .seen = model.classify(event.payload, now.T_map_base),
@@ -144,19 +161,33 @@ void PoseBelief::judge(const StreamModel& model, const Event& event, const Pose2
                                    .innovation_m = state_.started ? apart(predicted, now.T_map_base) : 0.0});
 }
 
-// What was found competes with what is believed; where it wins, the monitor begins anew.
-void PoseBelief::recover(const StreamModel& model, const Event& event, const Pose2& moved) {
+// Where a rival wins, the monitor begins anew.
+void PoseBelief::recover(const StreamModel& model, const Event& event, const Pose2& moved, double since_s) {
   if (!recovery_) return;
+  RecoveryMemory& memory = state_.recovery;
+  const Pose2& believed = state_.updated.T_map_base;
   const double right = monitor_.right(state_.monitor);
-  const bool in_doubt = right < kDoubt || state_.monitor.last_evidence < 0.0;
-  Recovery::carry(state_.recovery, moved);
+  const bool in_doubt = recovery_->doubtful(right, state_.updated.judgement.explained,
+                                            state_.monitor.streams[event.stream].usual_explained);
+  Recovery::carry(memory, moved, since_s);
   if (model.informs(event.payload))
-    recovery_->observe(state_.recovery, event.stream, event.payload, in_doubt);
-  if (recovery_->recover(state_.recovery, model, event.stamp, right, *filter_) == 0.0) return;
-  summarize({}, 0.0);
-  state_.pose = state_.updated.T_map_base;
-  state_.updated.quality = model.explained_share(event.payload, state_.updated.T_map_base);
-  state_.updated.judgement.probability = state_.updated.weight * monitor_.right(state_.monitor);
+    recovery_->observe(memory, event.stream, model, event.payload, believed, in_doubt);
+  recovery_->search(memory, model, event.stamp, right, believed, *filter_);
+  if (recovery_->take_over(memory, believed, *filter_)) {
+    summarize({}, 0.0);
+    state_.pose = state_.updated.T_map_base;
+    state_.updated.quality = model.explained_share(event.payload, state_.updated.T_map_base);
+  }
+  Judgement& judgement = state_.updated.judgement;
+  const double share = Rivals::believed_share(memory.rivals);
+  const double believed_right = monitor_.right(state_.monitor) * share;
+  judgement.probability = state_.updated.weight * believed_right;
+  if (judgement.state == TrackingState::kSensorFault) return;
+  if (believed_right < 0.5) {
+    judgement.state = TrackingState::kLost;
+  } else if (share < 0.9) {
+    judgement.state = TrackingState::kAmbiguous;
+  }
 }
 
 // The first measurement of a robot that may be anywhere makes the first particles; it must not weigh them
@@ -188,7 +219,22 @@ HypothesisSnapshot PoseBelief::hypotheses_at(Time stamp, const OdometryTrack& od
     place.covariance = carried(place.covariance, then, place.T_map_base);
     place.age_s += to_seconds(stamp - state_.updated.stamp);
   }
+  add_rivals(T_then_now, to_seconds(stamp - state_.updated.stamp), snapshot);
   return snapshot;
+}
+
+// The belief's places keep the share that the rivals leave them.
+void PoseBelief::add_rivals(const Pose2& T_then_now, double since_s, HypothesisSnapshot& snapshot) const {
+  const std::vector<Rival>& rivals = state_.recovery.rivals;
+  if (rivals.empty()) return;
+  const double share = Rivals::believed_share(rivals);
+  for (Hypothesis& place : snapshot.hypotheses) place.weight *= share;
+  for (const Rival& rival : rivals) {
+    const double weight = share * std::exp(rival.log_odds);
+    if (weight < kNegligible) continue;
+    snapshot.hypotheses.push_back({rival.T_map_base * T_then_now, Recovery::spread(), weight,
+                                   rival.age_s + since_s, kFirstRival + rival.id});
+  }
 }
 
 ParticleSnapshot PoseBelief::snapshot_at(Time stamp, std::size_t at_most,

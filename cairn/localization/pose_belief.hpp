@@ -79,6 +79,7 @@ class PoseBelief {
     Estimate updated;                                    ///< the belief right after it
     std::vector<std::optional<OdometryAnchor>> used_at;  ///< per stream, its last measurement that was used
     std::vector<std::int64_t> offered;                   ///< per stream, how many came since
+    std::vector<std::optional<double>> explained;        ///< per stream, share of it that the map explained
     HypothesisTrack track;
     Pose2 pose;  ///< of the last update, for the innovation
     MonitorMemory monitor;
@@ -104,7 +105,9 @@ class PoseBelief {
   Application update(const Event& event, const OdometryTrack& odometry);
   void summarize(const Pose2& moved, double since_s);
   void judge(const StreamModel& model, const Event& event, const Pose2& moved);
-  void recover(const StreamModel& model, const Event& event, const Pose2& moved);
+  void recover(const StreamModel& model, const Event& event, const Pose2& moved, double since_s);
+  bool surprises(const Event& event, const OdometryTrack& odometry) const;
+  void add_rivals(const Pose2& T_then_now, double since_s, HypothesisSnapshot& snapshot) const;
 
   std::unique_ptr<PoseFilter> filter_;
   std::vector<std::unique_ptr<const StreamModel>> models_;

@@ -6,22 +6,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-
 namespace cairn {
 namespace {
 
 constexpr std::size_t kAsked = 200;         // of the particles: what the belief is worth
+constexpr int kDoubtfulScans = 3;           // for which one scan raises doubt
 constexpr double kLeastProbability = 1e-3;  // the monitor is never surer than that
-constexpr double kLeastSigma = 1e-4;
-
-// L with L L^T = covariance. A mode at the edge of what was looked at may have one that is no covariance.
-Eigen::Matrix3d root_of(const Eigen::Matrix3d& covariance) {
-  if (!covariance.allFinite()) return kLeastSigma * Eigen::Matrix3d::Identity();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> own(covariance);
-  const Eigen::Vector3d sigmas = own.eigenvalues().cwiseMax(kLeastSigma * kLeastSigma).cwiseSqrt();
-  return own.eigenvectors() * sigmas.asDiagonal();
-}
+constexpr double kLargestShare = 0.98;      // of the belief that a rival may get at once
+// Spread of a rival that takes over.
+constexpr double kSpread_m = 0.1, kSpread_rad = 0.05;
 
 bool is_near(const Pose2& T, double within_m, double within_rad) {
   return std::hypot(T.x, T.y) < within_m && std::abs(normalize_angle(T.theta)) < within_rad;
@@ -31,8 +24,11 @@ bool is_near(const Pose2& T, double within_m, double within_rad) {
 
 void RecoveryOptions::visit(OptionVisitor& v) {
   v.flag({"active", "look for a robot that is lost (recipes mcl, kld_mcl, cgr and ckld_mcl)"}, active);
-  v.number({"doubt", "a search begins when the pose is right with less than this probability"}, doubt,
-           {0.0, 1.0});
+  v.number({"doubt", "in doubt while the pose is right with less than this probability"}, doubt, {0.0, 1.0});
+  v.number({"drop", "and where the map explains by this share fewer beams than usual"}, drop, {0.0, 1.0});
+  v.number({"surprise", "a scan that it explains by this less than the last is worth an update; 0: never"},
+           surprise, {0.0, 1.0});
+  v.number({"prior", "least probability of being lost while in doubt"}, prior, {1e-9, 0.999});
   v.number({"every_s", "time between two searches, doubled after each that finds nothing, seconds"}, every_s,
            {0.0, 1e6});
   v.number({"at_most_every_s", "up to this, seconds"}, at_most_every_s, {0.0, 1e6});
@@ -46,22 +42,40 @@ void RecoveryOptions::visit(OptionVisitor& v) {
   v.number({"further_beams", "likewise for each of the others"}, further_beams, {0.0, 100000});
   v.number({"millions_of_points", "a search looks up at most this many million end points"},
            millions_of_points, {0.01, 1e6});
-  v.integer({"particles", "that come in"}, particles, {1, 1'000'000});
-  v.number({"least_share", "candidates that deserve less of the belief do not come in"}, least_share,
-           {0.0, 1.0});
+  v.number({"rival_beams", "as laser.effective_beams, for a scan that rivals are weighed by"}, rival_beams,
+           {0.01, 1e5});
+  v.number({"accept", "log-odds at which a rival takes over"}, accept, {0.0, 1e3});
+  v.integer({"confirm", "that has been weighed by so many scans since it was found"}, confirm, {0, 1000});
+  v.integer({"particles", "that come in then"}, particles, {1, 1'000'000});
 }
 
-void Recovery::carry(RecoveryMemory& memory, const Pose2& T_before_after) {
+bool Recovery::doubtful(double right, double explained, double usual) const {
+  return right < options_.doubt || explained < usual - options_.drop;
+}
+
+bool Recovery::surprising(double explained_before, double explained_now) const {
+  return options_.surprise > 0.0 && explained_now < explained_before - options_.surprise;
+}
+
+void Recovery::carry(RecoveryMemory& memory, const Pose2& T_before_after, double since_s) {
   const Pose2 T_now_before = inverse(T_before_after);
   for (Glimpse& glimpse : memory.glimpses) glimpse.T_now_then = T_now_before * glimpse.T_now_then;
+  Rivals::carry(memory.rivals, T_before_after, since_s);
 }
 
-void Recovery::observe(RecoveryMemory& memory, StreamId stream, const Event::Payload& z,
-                       bool in_doubt) const {
+void Recovery::observe(RecoveryMemory& memory, StreamId stream, const StreamModel& model,
+                       const Event::Payload& z, const Pose2& believed, bool in_doubt) const {
+  rivals_.weigh(memory.rivals, model, z, believed);
+  remember(memory, stream, z, in_doubt);
+}
+
+void Recovery::remember(RecoveryMemory& memory, StreamId stream, const Event::Payload& z,
+                        bool in_doubt) const {
   std::vector<Glimpse>& glimpses = memory.glimpses;
-  if (!in_doubt) {
+  memory.doubtful = in_doubt ? kDoubtfulScans : std::max(0, memory.doubtful - 1);
+  if (memory.doubtful == 0) {
     glimpses.clear();
-    memory.wait_s = 0.0;
+    memory.wait_s *= 0.5;
     return;
   }
   if (glimpses.empty()) memory.stream = stream;
@@ -76,56 +90,53 @@ void Recovery::observe(RecoveryMemory& memory, StreamId stream, const Event::Pay
   glimpses.push_back({z, Pose2{}});
 }
 
-bool Recovery::due(const RecoveryMemory& memory, Time now, double probability) const {
-  if (!options_.active || probability >= options_.doubt || memory.glimpses.empty()) return false;
+bool Recovery::due(const RecoveryMemory& memory, Time now) const {
+  if (!options_.active || memory.glimpses.empty()) return false;
   const double wait_s = std::max(memory.wait_s, options_.every_s);
   return !memory.searched || to_seconds(now - memory.searched_at) >= wait_s || now < memory.searched_at;
 }
 
-double Recovery::share_of(const SearchFinding& finding, double probability) const {
-  if (finding.poses.empty() || finding.log_likelihood.empty()) return 0.0;
-  const double right = std::clamp(probability, kLeastProbability, 1.0 - kLeastProbability);
-  const double believed =
-      log_sum_exp(finding.log_likelihood) - std::log(static_cast<double>(finding.log_likelihood.size()));
-  const double odds = finding.log_evidence - believed + std::log((1.0 - right) / right);
-  return 1.0 / (1.0 + std::exp(-odds));
-}
-
-double Recovery::recover(RecoveryMemory& memory, const StreamModel& model, Time now, double probability,
-                         PoseFilter& filter) const {
-  if (!due(memory, now, probability)) return 0.0;
+void Recovery::search(RecoveryMemory& memory, const StreamModel& model, Time now, double probability,
+                      const Pose2& believed, const PoseFilter& filter) const {
+  if (!due(memory, now)) return;
   const auto finding = model.search(memory.glimpses, filter.sample(kAsked));
-  if (!finding) return 0.0;
+  if (!finding) return;
   memory.searched = true;
   memory.searched_at = now;
   ++memory.searches;
-  const double share = share_of(*finding, probability);
-  if (share < options_.least_share) {
-    memory.wait_s = std::min(2.0 * std::max(memory.wait_s, options_.every_s), options_.at_most_every_s);
-    return 0.0;
-  }
-  take_in(finding->poses, std::min(share, 1.0 - options_.least_share), memory.searches, filter);
-  return share;
+  memory.wait_s = std::min(2.0 * std::max(memory.wait_s, options_.every_s), options_.at_most_every_s);
+  if (finding->poses.empty() || finding->log_likelihood.empty()) return;
+  const double right = std::clamp(probability, kLeastProbability, 1.0 - options_.prior);
+  const double belief =
+      log_sum_exp(finding->log_likelihood) - std::log(static_cast<double>(finding->log_likelihood.size()));
+  const double all = finding->log_evidence - belief + std::log((1.0 - right) / right);
+  for (const LocatedPose& pose : finding->poses)
+    rivals_.add(memory.rivals, {pose.T_map_base, all + std::log(pose.weight), 0, 0.0, ++memory.last_id},
+                believed);
 }
 
-void Recovery::take_in(const std::vector<LocatedPose>& poses, double share, std::uint32_t search,
-                       PoseFilter& filter) const {
-  const RandomStream random(seed_, RandomPurpose::kCandidates, search);
+Eigen::Matrix3d Recovery::spread() {
+  return Eigen::Vector3d(kSpread_m * kSpread_m, kSpread_m * kSpread_m, kSpread_rad * kSpread_rad)
+      .asDiagonal();
+}
+
+bool Recovery::take_over(RecoveryMemory& memory, const Pose2& believed, PoseFilter& filter) const {
+  Rival* const strongest = Rivals::strongest(memory.rivals, options_.confirm);
+  if (strongest == nullptr || strongest->log_odds < options_.accept) return false;
+  const Rival winner = rivals_.take_over(memory.rivals, *strongest, believed);
+  const RandomStream random(seed_, RandomPurpose::kCandidates, ++memory.takeovers);
   std::vector<Pose2> states;
-  std::vector<double> weights;
-  for (const LocatedPose& pose : poses) {
-    const Eigen::Matrix3d root = root_of(pose.covariance);
-    const auto count =
-        std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(pose.weight * options_.particles)));
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto n = random.normal4(static_cast<std::uint32_t>(states.size()));
-      const Eigen::Vector3d d = root * Eigen::Vector3d(n[0], n[1], n[2]);
-      const Pose2& mean = pose.T_map_base;
-      states.push_back({mean.x + d.x(), mean.y + d.y(), normalize_angle(mean.theta + d.z())});
-      weights.push_back(pose.weight / static_cast<double>(count));
-    }
+  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(options_.particles); ++i) {
+    const auto n = random.normal4(i);
+    const Pose2& mean = winner.T_map_base;
+    states.push_back({mean.x + kSpread_m * n[0], mean.y + kSpread_m * n[1],
+                      normalize_angle(mean.theta + kSpread_rad * n[2])});
   }
-  filter.take_in(states, weights, share);
+  const std::vector<double> weights(states.size(), 1.0);
+  const double share = 1.0 / (1.0 + std::exp(-winner.log_odds));
+  filter.take_in(states, weights, std::min(share, kLargestShare));
+  memory.wait_s = 0.0;
+  return true;
 }
 
 }  // namespace cairn

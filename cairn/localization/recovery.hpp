@@ -3,29 +3,36 @@
 #include "cairn/core/options.hpp"
 #include "cairn/core/time.hpp"
 #include "cairn/localization/pose_filter.hpp"
+#include "cairn/localization/rivals.hpp"
 #include "cairn/localization/stream_model.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace cairn {
 
 /// When and how a lost robot is looked for.
 struct RecoveryOptions {
-  bool active = false;            ///< off: see decision 90
-  double doubt = 0.5;             ///< a search begins when the pose is right with less than this probability
-  double every_s = 0.5;           ///< time between two searches, doubled after each that finds nothing better
-  double at_most_every_s = 2.0;   ///< up to this
-  int scans = 8;                  ///< of the last ones that may be joined
-  double spacing_m = 0.2;         ///< those nearer to the one before than this ...
-  double spacing_rad = 0.2;       ///< ... and turned by less than this are left out, but for the newest
-  int most_poses = 10;            ///< distinct places
-  double sigma_hit_m = 0.15;      ///< as laser.sigma_hit_m, in the search
-  double effective_beams = 20.0;  ///< as laser.effective_beams, for the first of the joined scans
-  double further_beams = 10.0;    ///< likewise for each of the others
-  double millions_of_points = 30.0;  ///< a search looks up at most this many million end points
-  int particles = 300;               ///< that come in
-  double least_share = 0.02;         ///< candidates that deserve less of the belief do not come in
+  bool active = false;    ///< off: see decision 90
+  double doubt = 0.9;     ///< in doubt while the pose is right with less than this probability,
+  double drop = 0.12;     ///< and where the map explains by this share fewer beams than usual
+  double surprise = 0.3;  ///< a scan of which it explains by this less than of the last is worth an update
+  double prior = 0.05;    ///< least probability of being lost while in doubt
+  double every_s = 0.5;   ///< time between two searches, doubled after each that finds nothing new
+  double at_most_every_s = 4.0;    ///< up to this
+  int scans = 8;                   ///< of the last ones that may be joined
+  double spacing_m = 0.2;          ///< those nearer to the one before than this ...
+  double spacing_rad = 0.2;        ///< ... and turned by less than this are left out, but for the newest
+  int most_poses = 8;              ///< distinct places
+  double sigma_hit_m = 0.15;       ///< as laser.sigma_hit_m, in the search
+  double effective_beams = 12.0;   ///< as laser.effective_beams, for the first of the joined scans
+  double further_beams = 5.0;      ///< likewise for each of the others
+  double millions_of_points = 30;  ///< a search looks up at most this many million end points
+  double rival_beams = 3.0;        ///< as laser.effective_beams, for a scan that rivals are weighed by
+  double accept = 4.0;             ///< log-odds at which a rival takes over ...
+  int confirm = 3;                 ///< that has been weighed by so many scans since it was found
+  int particles = 300;             ///< that come in then
 
   void visit(OptionVisitor& visitor);
 };
@@ -34,43 +41,61 @@ struct RecoveryOptions {
 struct RecoveryMemory {
   std::vector<Glimpse> glimpses;  ///< since the pose came into doubt, the newest last
   std::uint32_t stream = 0;       ///< that they are of
+  std::vector<Rival> rivals;
   bool searched = false;
   Time searched_at;
   double wait_s = 0.0;
   std::uint32_t searches = 0;
+  std::uint32_t takeovers = 0;
+  std::uint32_t last_id = 0;  ///< of the rivals
+  int doubtful = 0;           ///< scans for which the doubt goes on
 };
 
-/// Brings a robot that was carried away back: global localization from the scans since its pose came into
-/// doubt. What the search finds competes with what is believed, by its evidence:
+/// Brings a robot that was carried away back. While the pose is in doubt, global localization from the scans
+/// since then finds other places; each begins as a rival of the believed one with the log-odds
 ///
-///   share = l E / (l E + (1 - l) B),   E = 1/V sum_c integral p(z | x) dx,   B = mean of p(z | x) over the
+///   log(l E_c / ((1 - l) B)),   E_c = 1/V integral around c of p(z | x) dx,   B = mean of p(z | x) over the
 ///   belief
 ///
-/// with l the probability of being lost, z the joined scans, and c the places found. A robot among people is
-/// not lost, so that no search begins; a belief that explains the scans as well as anything else outweighs
-/// what was found elsewhere by its B, for E pays for all the poses that would have been possible.
+/// with l the probability of being lost and z the joined scans. E_c pays for all the poses that would have
+/// been possible. From then on rivals and belief compete from scan to scan (rivals.hpp). The belief is left
+/// alone until one of them wins.
 /// Immutable; deterministic: a function of the measurements in their order.
 class Recovery {
  public:
-  Recovery(const RecoveryOptions& options, std::uint64_t seed) : options_(options), seed_(seed) {}
+  Recovery(const RecoveryOptions& options, std::uint64_t seed)
+      : options_(options), rivals_({.beams = options.rival_beams}), seed_(seed) {}
+
+  /// Whether a scan makes the pose doubtful.
+  /// @param right probability of the pose, the scan included
+  /// @param explained share of its beams that the map explains there; usual: the average so far
+  bool doubtful(double right, double explained, double usual) const;
+  /// Whether a scan is worth an update though the robot has not moved: it is not what was seen here before.
+  bool surprising(double explained_before, double explained_now) const;
 
   /// The robot has moved.
-  static void carry(RecoveryMemory& memory, const Pose2& T_before_after);
-  /// Remembers a measurement. @param in_doubt whether it or the ones before speak against the pose
-  void observe(RecoveryMemory& memory, StreamId stream, const Event::Payload& z, bool in_doubt) const;
+  static void carry(RecoveryMemory& memory, const Pose2& T_before_after, double since_s);
+  /// Remembers a measurement and weighs the rivals by it.
+  /// @param in_doubt whether it or the ones before speak against the pose
+  void observe(RecoveryMemory& memory, StreamId stream, const StreamModel& model, const Event::Payload& z,
+               const Pose2& believed, bool in_doubt) const;
 
-  /// Searches, if it is time to, and lets the filter take in what was found. Returns the share of the belief
-  /// that it got: 0 if nothing came in.
-  double recover(RecoveryMemory& memory, const StreamModel& model, Time now, double probability,
-                 PoseFilter& filter) const;
+  /// Searches, if it is time to.
+  void search(RecoveryMemory& memory, const StreamModel& model, Time now, double probability,
+              const Pose2& believed, const PoseFilter& filter) const;
+
+  /// Covariance of a rival that takes over.
+  static Eigen::Matrix3d spread();
+  /// Lets a rival that has won take over: it enters the filter with its share of the belief. False if none
+  /// has.
+  bool take_over(RecoveryMemory& memory, const Pose2& believed, PoseFilter& filter) const;
 
  private:
-  bool due(const RecoveryMemory& memory, Time now, double probability) const;
-  double share_of(const SearchFinding& finding, double probability) const;
-  void take_in(const std::vector<LocatedPose>& poses, double share, std::uint32_t search,
-               PoseFilter& filter) const;
+  void remember(RecoveryMemory& memory, StreamId stream, const Event::Payload& z, bool in_doubt) const;
+  bool due(const RecoveryMemory& memory, Time now) const;
 
   RecoveryOptions options_;
+  Rivals rivals_;
   std::uint64_t seed_;
 };
 

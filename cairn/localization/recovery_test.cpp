@@ -66,55 +66,90 @@ class Listener final : public PoseFilter {
 
 class RecoveryTest : public testing::Test {
  protected:
-  double after_one_scan(double log_odds, double probability) {
+  void observe(const StreamModel& model, double at_s, bool in_doubt) {
+    recovery_.observe(memory_, 1, model, test::fake_measurement(at_s).payload, {}, in_doubt);
+  }
+  // One scan in doubt, a search, and whether what was found takes over at once.
+  bool after_one_scan(double log_odds, double probability) {
     const FoundElsewhere model(log_odds);
-    RecoveryMemory memory;
-    recovery_.observe(memory, 1, test::fake_measurement(1.0).payload, true);
-    return recovery_.recover(memory, model, at(1.0), probability, filter_);
+    memory_ = {};
+    observe(model, 1.0, true);
+    recovery_.search(memory_, model, at(1.0), probability, {}, filter_);
+    return recovery_.take_over(memory_, {}, filter_);
   }
 
-  Recovery recovery_{RecoveryOptions{.active = true}, 1};
+  Recovery recovery_{RecoveryOptions{.confirm = 0}, 1};
+  RecoveryMemory memory_;
   Listener filter_;
 };
 
-TEST_F(RecoveryTest, WhatIsFoundGetsTheShareThatBayesGivesIt) {
-  EXPECT_NEAR(after_one_scan(std::log(3.0), 0.4), 0.6 * 3.0 / (0.6 * 3.0 + 0.4), 1e-9);
-  EXPECT_NEAR(filter_.share_, 0.6 * 3.0 / (0.6 * 3.0 + 0.4), 1e-9);
-  double sum = 0.0;
-  for (const double weight : filter_.weights_) sum += weight;
-  EXPECT_NEAR(sum, 1.0, 1e-9);
+TEST_F(RecoveryTest, WhatIsFoundGetsTheOddsThatBayesGivesIt) {
+  EXPECT_FALSE(after_one_scan(2.0, 0.4));
+  ASSERT_EQ(memory_.rivals.size(), 1u);
+  EXPECT_NEAR(memory_.rivals[0].log_odds, 2.0 + std::log(0.6 / 0.4), 1e-9);
+}
+
+TEST_F(RecoveryTest, AWinnerTakesOverWithItsShare) {
+  EXPECT_TRUE(after_one_scan(3.5, 0.5));
+  EXPECT_NEAR(filter_.share_, 1.0 / (1.0 + std::exp(-3.5)), 1e-9);
   ASSERT_EQ(filter_.states_.size(), 300u);
-  for (const Pose2& pose : filter_.states_) EXPECT_LT(distance(pose, FoundElsewhere::kPlace), 0.1);
+  double x = 0.0;
+  for (const Pose2& pose : filter_.states_) x += pose.x / 300.0;
+  EXPECT_NEAR(x, FoundElsewhere::kPlace.x, 0.03);  // five standard deviations
+  ASSERT_EQ(memory_.rivals.size(), 1u);            // where it was believed to be
+  EXPECT_NEAR(memory_.rivals[0].log_odds, -3.5, 1e-9);
+}
+
+TEST_F(RecoveryTest, AWinnerIsToBeConfirmedByFurtherScans) {
+  const Recovery recovery(RecoveryOptions{.confirm = 2}, 1);
+  const FoundElsewhere model(8.0);
+  observe(model, 1.0, true);
+  recovery.search(memory_, model, at(1.0), 0.5, {}, filter_);
+  EXPECT_FALSE(recovery.take_over(memory_, {}, filter_));
+  for (Rival& rival : memory_.rivals) rival.scans = 2;
+  EXPECT_TRUE(recovery.take_over(memory_, {}, filter_));
 }
 
 TEST_F(RecoveryTest, ABeliefThatExplainsTheScansIsNotDisturbed) {
-  EXPECT_EQ(after_one_scan(-20.0, 0.1), 0.0);
+  EXPECT_FALSE(after_one_scan(-20.0, 0.1));
   EXPECT_TRUE(filter_.states_.empty());
+  EXPECT_TRUE(memory_.rivals.empty());
 }
 
-TEST_F(RecoveryTest, WhoIsNotLostIsNotLookedFor) { EXPECT_EQ(after_one_scan(50.0, 0.9), 0.0); }
+TEST_F(RecoveryTest, DoubtComesFromTheJudgementOrFromFewerExplainedBeamsThanUsual) {
+  EXPECT_FALSE(recovery_.doubtful(0.99, 0.85, 0.9));
+  EXPECT_TRUE(recovery_.doubtful(0.5, 0.9, 0.9));
+  EXPECT_TRUE(recovery_.doubtful(0.99, 0.7, 0.9));
+  EXPECT_FALSE(recovery_.surprising(0.9, 0.7));
+  EXPECT_TRUE(recovery_.surprising(0.9, 0.5));
+}
 
-TEST_F(RecoveryTest, SearchesBecomeRareWhileTheyFindNothing) {
+TEST_F(RecoveryTest, WhoIsNotInDoubtIsNotLookedFor) {
+  const FoundElsewhere model(50.0);
+  observe(model, 1.0, false);
+  recovery_.search(memory_, model, at(1.0), 0.99, {}, filter_);
+  EXPECT_EQ(model.searches_, 0);
+}
+
+TEST_F(RecoveryTest, SearchesBecomeRareWhileTheDoubtLasts) {
   const FoundElsewhere model(-20.0);
-  RecoveryMemory memory;
   for (int i = 0; i < 600; ++i) {
-    recovery_.observe(memory, 1, test::fake_measurement(0.1 * i).payload, true);
-    recovery_.recover(memory, model, at(0.1 * i), 0.1, filter_);
+    observe(model, 0.1 * i, true);
+    recovery_.search(memory_, model, at(0.1 * i), 0.1, {}, filter_);
   }
-  EXPECT_GE(model.searches_, 28);
-  EXPECT_LE(model.searches_, 34);  // at 0, 1, 3 s, then every 2
+  EXPECT_GE(model.searches_, 15);
+  EXPECT_LE(model.searches_, 18);  // at 0, 1, 3, 7 s, then every 4
 }
 
 TEST_F(RecoveryTest, TheScansOfTheDoubtAreJoinedAsTheRobotMoved) {
   const FoundElsewhere model(-20.0);
-  RecoveryMemory memory;
   const Pose2 step{0.3, 0.0, 0.1};
-  recovery_.observe(memory, 1, test::fake_measurement(0.0).payload, false);  // before the doubt
+  observe(model, 0.0, false);  // before the doubt
   for (int i = 1; i <= 4; ++i) {
-    Recovery::carry(memory, step);
-    recovery_.observe(memory, 1, test::fake_measurement(i).payload, true);
+    Recovery::carry(memory_, step, 1.0);
+    observe(model, i, true);
   }
-  recovery_.recover(memory, model, at(4.0), 0.1, filter_);
+  recovery_.search(memory_, model, at(4.0), 0.1, {}, filter_);
   ASSERT_EQ(model.glimpses_.size(), 4u);
   const Pose2 expected = inverse(step * step * step);
   EXPECT_LT(distance(model.glimpses_[0].T_now_then, expected), 1e-9);
@@ -123,13 +158,13 @@ TEST_F(RecoveryTest, TheScansOfTheDoubtAreJoinedAsTheRobotMoved) {
 }
 
 TEST_F(RecoveryTest, ScansNearToEachOtherAreNotJoinedTwice) {
-  RecoveryMemory memory;
+  const FoundElsewhere model(-20.0);
   for (int i = 0; i < 100; ++i) {
-    Recovery::carry(memory, {0.05, 0.0, 0.0});
-    recovery_.observe(memory, 1, test::fake_measurement(0.1 * i).payload, true);
+    Recovery::carry(memory_, {0.05, 0.0, 0.0}, 0.1);
+    observe(model, 0.1 * i, true);
   }
-  EXPECT_LE(memory.glimpses.size(), 8u);
-  EXPECT_LT(memory.glimpses.front().T_now_then.x, -0.8);
+  EXPECT_LE(memory_.glimpses.size(), 8u);
+  EXPECT_LT(memory_.glimpses.front().T_now_then.x, -0.8);
 }
 
 TEST_F(RecoveryTest, TheSameMeasurementsBringTheSamePosesIn) {

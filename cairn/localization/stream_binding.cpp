@@ -5,6 +5,7 @@
 #include "cairn/localization/recipes.hpp"
 #include "cairn/models/derived_maps.hpp"
 #include "cairn/models/search/place_sampler.hpp"
+#include "cairn/models/sensor/place_fit.hpp"
 
 #include <algorithm>
 
@@ -54,7 +55,8 @@ struct LaserParts {
   std::unique_ptr<const BeamSkipping> skipping;  ///< null: all beams count
   std::unique_ptr<const LaserLocator> start;     ///< null: the search for the start is switched off
   std::unique_ptr<const LaserLocator> recovery;  ///< null: recovery is switched off
-  std::unique_ptr<const BeamClassifier> classes;
+  std::shared_ptr<const BeamClassifier> classes;
+  std::unique_ptr<const PlaceFit> fit;  ///< null: recovery is switched off
   std::optional<PlaceSampler> sampler;  ///< only for recipes that draw samples of p(x | z)
   BeamLimits limits;
   int max_beams = 0;
@@ -90,6 +92,11 @@ class LaserStream final : public StreamModel {
                                       std::span<const Pose2> asked) const override {
     if (!parts_.recovery) return std::nullopt;
     return parts_.recovery->search(glimpses, asked);
+  }
+  bool follow(const Event::Payload& z, std::span<Pose2> places, std::span<double> fits) const override {
+    if (!parts_.fit) return false;
+    for (std::size_t i = 0; i < places.size(); ++i) fits[i] = parts_.fit->follow(scan_of(z), places[i]);
+    return true;
   }
   std::optional<BeamShares> classify(const Event::Payload& z, const Pose2& T_map_base) const override {
     return parts_.classes->classify(scan_of(z), T_map_base);
@@ -135,9 +142,9 @@ LaserLocator::Options recovery_search(const LocalizerOptions& options) {
   return o;
 }
 
-std::unique_ptr<const BeamClassifier> make_classifier(const MapSet& map, const LocalizerOptions& options,
+std::shared_ptr<const BeamClassifier> make_classifier(const MapSet& map, const LocalizerOptions& options,
                                                       const Pose2& T_base_sensor, const BeamLimits& limits) {
-  return std::make_unique<const BeamClassifier>(
+  return std::make_shared<const BeamClassifier>(
       map.grid(), distance_field_of(map, options.laser.likelihood_field.max_distance_m),
       ray_marcher_of(map, limits.max_range_m), T_base_sensor, limits);
 }
@@ -181,6 +188,7 @@ std::unique_ptr<const StreamModel> bind_laser(const LocalizerOptions& options,
                    .start = nullptr,
                    .recovery = nullptr,
                    .classes = make_classifier(map, options, T_base_sensor, laser.limits),
+                   .fit = nullptr,
                    .sampler = make_sampler(map, options, stream.name, places, T_base_sensor, laser.limits),
                    .limits = laser.limits,
                    .max_beams = options.laser.likelihood_field.max_beams,
@@ -189,7 +197,12 @@ std::unique_ptr<const StreamModel> bind_laser(const LocalizerOptions& options,
     return std::make_unique<const LaserLocator>(map.grid(), T_base_sensor, laser.limits, how);
   };
   if (options.global.most_poses > 0) parts.start = locator(start_search(options));
-  if (options.recovery.active) parts.recovery = locator(recovery_search(options));
+  if (options.recovery.active) {
+    parts.recovery = locator(recovery_search(options));
+    parts.fit = std::make_unique<const PlaceFit>(
+        parts.classes, distance_field_of(map, options.laser.likelihood_field.max_distance_m), T_base_sensor,
+        laser.limits);
+  }
   return std::make_unique<const LaserStream>(std::move(parts));
 }
 

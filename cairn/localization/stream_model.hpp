@@ -65,6 +65,14 @@ class StreamModel {
     return std::nullopt;
   }
 
+  /// Moves each place T_map_base to where the measurement fits best nearby (within a few decimetres), and
+  /// tells how well: log-likelihood per beam, comparable between places for one measurement. False, and nothing
+  /// changed: this sensor cannot tell. @pre as many places as fits
+  virtual bool follow(const Event::Payload& /*z*/, std::span<Pose2> /*places*/,
+                      std::span<double> /*fits*/) const {
+    return false;
+  }
+
   /// Share of the measurement that the map explains, seen from `T_map_base`: 0..1.
   virtual double explained_share(const Event::Payload& z, const Pose2& T_map_base) const = 0;
 

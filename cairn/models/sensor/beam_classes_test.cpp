@@ -28,12 +28,22 @@ TEST_F(BeamClasses, FromTheTruePoseTheMapExplainsAll) {
 }
 
 TEST_F(BeamClasses, PeopleBlockBeamsButLetNoneThroughWalls) {
-  for (std::size_t i = 0; i < 90; ++i) scan_.ranges_m[i] = std::min(scan_.ranges_m[i], 0.6f);
+  // The box, 0.7 m away, is nearest of all that is mapped.
+  for (std::size_t i = 0; i < 90; ++i) scan_.ranges_m[i] = std::min(scan_.ranges_m[i], 0.4f);
   const BeamShares shares = classifier_.classify(scan_, truth_);
-  EXPECT_NEAR(shares.blocked, 0.5, 0.1);  // some walls are as near
-  EXPECT_NEAR(shares.explained, 0.5, 0.1);
+  EXPECT_NEAR(shares.blocked, 0.5, 1e-9);
+  EXPECT_NEAR(shares.explained, 0.5, 1e-9);
   EXPECT_EQ(shares.beyond, 0.0);
   EXPECT_LT(shares.fit, -0.5);
+}
+
+// At 0.6 m, towards the corner of the box, the beams of 0.36 rad end within the tolerance of 0.16 m beside
+// it.
+TEST_F(BeamClasses, WhoStandsBesideAMappedThingCountsAsThatThing) {
+  for (std::size_t i = 0; i < 90; ++i) scan_.ranges_m[i] = std::min(scan_.ranges_m[i], 0.6f);
+  const BeamShares shares = classifier_.classify(scan_, truth_);
+  EXPECT_NEAR(shares.blocked, 0.5 - 0.36 / 6.28, 1.0 / 60);
+  EXPECT_NEAR(shares.explained, 0.5 + 0.36 / 6.28, 1.0 / 60);
 }
 
 TEST_F(BeamClasses, FromAWrongPoseBeamsPassThroughWalls) {
