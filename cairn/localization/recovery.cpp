@@ -1,7 +1,6 @@
 #include "cairn/localization/recovery.hpp"
 
 #include "cairn/core/angle.hpp"
-#include "cairn/core/statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +8,8 @@
 namespace cairn {
 namespace {
 
-constexpr std::size_t kAsked = 200;         // of the particles: what the belief is worth
+constexpr double kOfMany = 1.0;  // what the best of many places fits better by chance, nat
+constexpr double kMostPerScan = 3.0;
 constexpr int kDoubtfulScans = 3;           // for which one scan raises doubt
 constexpr double kLeastProbability = 1e-3;  // the monitor is never surer than that
 constexpr double kLargestShare = 0.98;      // of the belief that a rival may get at once
@@ -18,6 +18,23 @@ constexpr double kSpread_m = 0.1, kSpread_rad = 0.05;
 
 bool is_near(const Pose2& T, double within_m, double within_rad) {
   return std::hypot(T.x, T.y) < within_m && std::abs(normalize_angle(T.theta)) < within_rad;
+}
+
+// How much better the remembered scans fit at the found places than where the robot is believed, nat.
+std::vector<double> gains_of(const std::vector<LocatedPose>& found, const std::vector<Glimpse>& glimpses,
+                             const StreamModel& model, const Pose2& believed,
+                             const RecoveryOptions& options) {
+  std::vector<double> gains(found.size());
+  std::vector<Pose2> places(found.size() + 1);
+  std::vector<double> fits(places.size());
+  for (const Glimpse& glimpse : glimpses) {
+    places[0] = believed * glimpse.T_now_then;
+    for (std::size_t i = 0; i < found.size(); ++i) places[i + 1] = found[i].T_map_base * glimpse.T_now_then;
+    if (!model.follow(glimpse.z, places, fits)) return gains;
+    for (std::size_t i = 0; i < found.size(); ++i)
+      gains[i] += std::clamp(options.rival_beams * (fits[i + 1] - fits[0]), -kMostPerScan, kMostPerScan);
+  }
+  return gains;
 }
 
 }  // namespace
@@ -97,22 +114,21 @@ bool Recovery::due(const RecoveryMemory& memory, Time now) const {
 }
 
 void Recovery::search(RecoveryMemory& memory, const StreamModel& model, Time now, double probability,
-                      const Pose2& believed, const PoseFilter& filter) const {
+                      const Pose2& believed) const {
   if (!due(memory, now)) return;
-  const auto finding = model.search(memory.glimpses, filter.sample(kAsked));
+  const auto finding = model.search(memory.glimpses, {});
   if (!finding) return;
   memory.searched = true;
   memory.searched_at = now;
   ++memory.searches;
   memory.wait_s = std::min(2.0 * std::max(memory.wait_s, options_.every_s), options_.at_most_every_s);
-  if (finding->poses.empty() || finding->log_likelihood.empty()) return;
   const double right = std::clamp(probability, kLeastProbability, 1.0 - options_.prior);
-  const double belief =
-      log_sum_exp(finding->log_likelihood) - std::log(static_cast<double>(finding->log_likelihood.size()));
-  const double all = finding->log_evidence - belief + std::log((1.0 - right) / right);
-  for (const LocatedPose& pose : finding->poses)
-    rivals_.add(memory.rivals, {pose.T_map_base, all + std::log(pose.weight), 0, 0.0, ++memory.last_id},
+  const std::vector<double> gains = gains_of(finding->poses, memory.glimpses, model, believed, options_);
+  const double before = std::log((1.0 - right) / right) - kOfMany;
+  for (std::size_t i = 0; i < gains.size(); ++i) {
+    rivals_.add(memory.rivals, {finding->poses[i].T_map_base, before + gains[i], 0, 0.0, ++memory.last_id},
                 believed);
+  }
 }
 
 Eigen::Matrix3d Recovery::spread() {

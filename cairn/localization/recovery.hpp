@@ -52,14 +52,9 @@ struct RecoveryMemory {
 };
 
 /// Brings a robot that was carried away back. While the pose is in doubt, global localization from the scans
-/// since then finds other places; each begins as a rival of the believed one with the log-odds
-///
-///   log(l E_c / ((1 - l) B)),   E_c = 1/V integral around c of p(z | x) dx,   B = mean of p(z | x) over the
-///   belief
-///
-/// with l the probability of being lost and z the joined scans. E_c pays for all the poses that would have
-/// been possible. From then on rivals and belief compete from scan to scan (rivals.hpp). The belief is left
-/// alone until one of them wins.
+/// since then finds other places. Each begins as a rival of the believed one with the log-odds of being lost,
+/// plus what those scans fit better there than where the robot is believed. From then on rivals and belief
+/// compete from scan to scan (rivals.hpp). The belief is left alone until one of them wins.
 /// Immutable; deterministic: a function of the measurements in their order.
 class Recovery {
  public:
@@ -82,7 +77,7 @@ class Recovery {
 
   /// Searches, if it is time to.
   void search(RecoveryMemory& memory, const StreamModel& model, Time now, double probability,
-              const Pose2& believed, const PoseFilter& filter) const;
+              const Pose2& believed) const;
 
   /// Covariance of a rival that takes over.
   static Eigen::Matrix3d spread();

@@ -43,7 +43,7 @@ TEST_F(RivalsTest, TheTruePlaceWinsScanByScan) {
   rivals_.add(all_, {{5, 0, 0}, -8.0}, believed_);
   rivals_.add(all_, {{9, 0, 0}, -4.0}, believed_);
   weigh(FitsThere({5, 0, 0}, -0.5), 3);
-  EXPECT_NEAR(all_[0].log_odds, -4.0, 1e-12);  // found last, but stays: it fits as badly as the belief
+  EXPECT_NEAR(all_[1].log_odds, -4.0, 1e-12);  // it fits as badly as the belief
   EXPECT_EQ(Rivals::strongest(all_, 3)->T_map_base.x, 5.0);
   EXPECT_NEAR(Rivals::strongest(all_, 3)->log_odds, -8.0 + 3 * 5.0 * 0.4, 1e-12);
 }

@@ -7,8 +7,8 @@
 namespace cairn {
 namespace {
 
-double fit_of(const BeamShares& shares, double beyond) {
-  return shares.beams == 0 ? 0.0 : shares.fit - beyond * shares.beyond;
+double fit_of(const BeamShares& shares, const PlaceFitOptions& o) {
+  return -(o.blocked * shares.blocked + o.beyond * shares.beyond + o.unknown * shares.unknown);
 }
 
 }  // namespace
@@ -28,8 +28,8 @@ double PlaceFit::follow(const LaserScan& scan, Pose2& T_map_base) const {
                          .asDiagonal();
   if (const auto moved = iterated_update(matching_, scan, prior, options_.iterations)) {
     // The way there may lead to a worse place where the walls bend: then it stays.
-    const double before = fit_of(classes_->classify(scan, T_map_base), options_.beyond);
-    const double after = fit_of(classes_->classify(scan, moved->mean), options_.beyond);
+    const double before = fit_of(classes_->classify(scan, T_map_base), options_);
+    const double after = fit_of(classes_->classify(scan, moved->mean), options_);
     if (after >= before) {
       T_map_base = moved->mean;
       T_map_base.theta = normalize_angle(T_map_base.theta);
@@ -37,7 +37,7 @@ double PlaceFit::follow(const LaserScan& scan, Pose2& T_map_base) const {
     }
     return before;
   }
-  return fit_of(classes_->classify(scan, T_map_base), options_.beyond);
+  return fit_of(classes_->classify(scan, T_map_base), options_);
 }
 
 }  // namespace cairn

@@ -14,20 +14,25 @@ struct PlaceFitOptions {
   double reach_rad = 0.05;
   int iterations = 3;
   int max_beams = 40;  ///< that a place is moved by
-  /// What a beam that passes through a wall costs beyond one that ends before it, nat. At right poses there
-  /// are 5 to 10 times more of the latter: people and things that the map does not know.
-  double beyond = 1.7;
+  /// What a beam of each class costs against one that the map explains, nat: how much rarer it is at a right
+  /// pose than at a wrong one. Of 31,000 scans of seven recordings right poses have about 11 % of the beams
+  /// blocked, 2 % beyond and 2 % unknown, wrong ones 20, 20 and 10 %. Blocked beams count for far less than
+  /// that: people come together, and stay.
+  double blocked = 0.25;
+  double beyond = 4.0;
+  double unknown = 3.0;
 };
 
-/// How well a scan fits where a robot may be, to compare places by: beams that end beside walls, those that
-/// do not, and those that pass through walls, which end points alone do not tell. Immutable.
+/// How well a scan fits where a robot may be, to compare places by: from the classes of its beams, which tell
+/// people in the way from walls that the beams pass through; end points alone do not. Immutable.
 class PlaceFit {
  public:
   PlaceFit(std::shared_ptr<const BeamClassifier> classes, std::shared_ptr<const DistanceField> walls,
            const Pose2& T_base_sensor, const BeamLimits& limits, const PlaceFitOptions& options = {});
 
   /// Moves the place T_map_base to where the scan fits best nearby (iterated Kalman update of a prior around
-  /// it). Returns the log-likelihood per beam there, 0 for the best possible scan; 0 for one without a beam.
+  /// it). Returns the log-likelihood ratio per beam there, 0 for a scan that the map explains, and for one
+  /// without a beam.
   double follow(const LaserScan& scan, Pose2& T_map_base) const;
 
  private:
