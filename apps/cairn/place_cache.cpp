@@ -124,8 +124,9 @@ PlaceIndices places_for(const Log& log, const LocalizerOptions& options, const M
                         const StreamMaps& stream_maps, const std::string& map_path) {
   PlaceIndices places;
   if (!samples_from_measurements(options.recipe)) return places;
-  for (StreamId id = 0; id < log.streams.size(); ++id) {
-    const StreamInfo& stream = log.streams[id];
+  for (std::size_t i = 0; i < log.streams.size(); ++i) {
+    const auto id = static_cast<StreamId>(i);
+    const StreamInfo& stream = log.streams[i];
     const LaserScan* scan = in_use(options, stream) ? first_scan(log, id) : nullptr;
     if (scan == nullptr) continue;
     const auto configured = options.streams.find(stream.name);
