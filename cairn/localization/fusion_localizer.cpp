@@ -27,7 +27,7 @@ FusionLocalizer::FusionLocalizer(FusionParts parts)
       watchdog_(std::move(parts.streams.periods), parts.time.watchdog_factor),
       history_(history_of(parts.time)),
       belief_({std::move(parts.filter), std::move(parts.streams.models), parts.trigger,
-               std::move(parts.global_start), Monitor(parts.monitor), parts.recovery,
+               std::move(parts.global_start), parts.global_search, Monitor(parts.monitor), parts.recovery,
                std::move(parts.executor)}),
       cost_clock_(std::move(parts.cost_clock)),
       accounts_(stream_names_.size()),

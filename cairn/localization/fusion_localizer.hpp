@@ -24,6 +24,7 @@ struct FusionParts {
   StreamBindings streams;
   std::unique_ptr<PoseFilter> filter;
   std::unique_ptr<GlobalStart> global_start;  ///< null: the filter is initialised
+  GlobalSearch global_search;
   std::unique_ptr<CostClock> cost_clock;
   PoseBelief::Trigger trigger;
   MonitorOptions monitor;

@@ -2,6 +2,7 @@
 
 #include "cairn/localization/stream_model.hpp"
 #include "cairn/maps/occupancy_grid.hpp"
+#include "cairn/models/search/path_score.hpp"
 #include "cairn/models/sensor/beam_selection.hpp"
 
 #include <memory>
@@ -18,18 +19,22 @@ class LaserLocator {
     LikelihoodFieldOptions likelihood;
     OneShotOptions search;
     double further_beams = 10.0;  ///< as which each scan after the first counts, in independent beams
+    int joined = 8;               ///< locate(): so many of the last scans are searched with
   };
 
   LaserLocator(std::shared_ptr<const OccupancyGrid> map, const Pose2& T_base_sensor, const BeamLimits& limits,
                const Options& options)
       : map_(std::move(map)), T_base_sensor_(T_base_sensor), limits_(limits), options_(options) {}
 
-  std::vector<LocatedPose> locate(const LaserScan& scan) const;
+  /// Places from the last glimpses, and those asked for; all weighed by the whole way (score_path).
+  std::vector<LocatedPose> locate(std::span<const Glimpse> glimpses, std::span<const Pose2> asked) const;
   SearchFinding search(std::span<const Glimpse> glimpses, std::span<const Pose2> asked) const;
 
  private:
   const PoseSearch& prepared() const;
-  std::vector<Point2> joined(std::span<const Glimpse> glimpses) const;
+  std::vector<Point2> joined(std::span<const Glimpse> glimpses, int beams) const;
+  std::vector<PathLook> looks(std::span<const Glimpse> glimpses) const;
+  void weigh(std::span<const PathLook> path, std::vector<LocatedPose>& places) const;
 
   std::shared_ptr<const OccupancyGrid> map_;
   Pose2 T_base_sensor_;

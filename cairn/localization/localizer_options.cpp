@@ -156,8 +156,17 @@ void GlobalOptions::visit(OptionVisitor& v) {
   v.number({"effective_beams", "as laser.effective_beams, likewise"}, effective_beams, {0.1, 100000});
   v.number({"candidates_per_m2", "poses that the first scan chooses from, per square metre of free space"},
            candidates_per_m2, {0.1, 1e5});
-  v.integer({"most_poses", "places that a search over the whole map finds for the first scan; 0: no search"},
+  v.integer({"most_poses", "distinct places that a search over the whole map keeps; 0: no search"},
             most_poses, {0, 10000});
+  v.number({"search_sigma_m", "as laser.sigma_hit_m, in that search, metres"}, search_sigma_m, {1e-3, 10.0});
+  v.number({"search_millions", "a search looks up at most this many million end points"}, search_millions,
+           {0.01, 1e6});
+  v.integer({"search_looks", "scans of the way that are remembered until the pose is confirmed"},
+            search_looks, {1, 10000});
+  v.number({"look_spacing_m", "they are this far apart, metres"}, look_spacing_m, {0.0, 100.0});
+  v.number({"look_spacing_rad", "or turned by this, radians"}, look_spacing_rad, {0.0, 7.0});
+  v.integer({"search_every", "new ones until the search is repeated"}, search_every, {1, 10000});
+  v.number({"look_beams", "as which each of them counts, in independent beams"}, look_beams, {0.01, 100000});
 }
 
 void CgrOptions::visit(OptionVisitor& v) {

@@ -88,9 +88,16 @@ struct GlobalOptions {
   double effective_beams = 6.0;
   double candidates_per_m2 =
       250.0;  ///< poses that the first scan of a robot that may be anywhere chooses from
-  /// places that a search over the whole map (one_shot.hpp) finds for the first scan: half of the first
-  /// particles stand there, the others are chosen from the candidates; 0: all from the candidates
+  /// Distinct places that a search over the whole map keeps (global_search.hpp); 0: no search. Half of the
+  /// first particles stand at those of the first scan, the others are chosen from the candidates.
   int most_poses = 0;
+  double search_sigma_m = 0.2;  ///< sigma_hit of the search: joined by odometry, the points are out of place
+  double search_millions = 10.0;  ///< a search looks up at most this many million end points
+  int search_looks = 40;          ///< measurements of the way that are remembered
+  double look_spacing_m = 0.5;    ///< this far apart ...
+  double look_spacing_rad = 0.5;  ///< ... or turned by this
+  int search_every = 4;           ///< new ones until the search is repeated, while the pose is not confirmed
+  double look_beams = 2.0;        ///< as which each of them counts, in independent beams
 
   void visit(OptionVisitor& visitor);
 };

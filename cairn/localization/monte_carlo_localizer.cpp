@@ -47,6 +47,7 @@ FusionParts compose(const LocalizerOptions& options, const std::vector<StreamInf
   if (start.T_map_base) {
     start_near(*start.T_map_base, map->geometry(), options.initial, *parts.filter);
   } else {
+    parts.global_search = GlobalSearch(options.global, seed);
     parts.global_start = std::make_unique<GlobalStart>(*map, options.global.candidates_per_m2, seed);
   }
   parts.cost_clock =

@@ -33,6 +33,7 @@ PoseBelief::PoseBelief(Parts parts)
       walk_(parts.trigger.walk),
       update_trigger_(make_trigger(parts.trigger.update.trigger())),
       global_start_(std::move(parts.global_start)),
+      global_search_(parts.global_search),
       monitor_(parts.monitor),
       recovery_(parts.recovery),
       executor_(std::move(parts.executor)) {
@@ -108,9 +109,10 @@ PoseBelief::Application PoseBelief::update(const Event& event, const OdometryTra
     since_s = to_seconds(event.stamp - state_.updated_at.stamp);
   }
   if (anywhere) {
-    start_anywhere(model, event.payload);
+    start_anywhere(event.stream, event.payload);
   } else {
     filter_->predict(moved);
+    GlobalSearch::carry(state_.search, moved);
     if (informs) {
       BoundUpdate<Pose2> z = model.bind_given(event.payload, filter_->compact(), [this](std::size_t at_most) {
         return filter_->sample(at_most);
@@ -123,8 +125,10 @@ PoseBelief::Application PoseBelief::update(const Event& event, const OdometryTra
   state_.used_at[event.stream] = state_.updated_at;
   state_.offered[event.stream] = 0;
   summarize(moved.T_before_after, since_s);
+  if (informs && !anywhere) search(model, event);
   judge(model, event, moved.T_before_after);
-  recover(model, event, moved.T_before_after, since_s);
+  if (!state_.search.searching) recover(model, event, moved.T_before_after, since_s);
+  GlobalSearch::temper(state_.search, state_.updated.judgement);
   return {informs, {model.beams(event.payload), static_cast<std::int64_t>(filter_->size())}};
 }
 
@@ -132,16 +136,19 @@ void PoseBelief::summarize(const Pose2& moved, double since_s) {
   const PoseSummary now = filter_->summarize();
   const PoseHypothesis alone{now.weight, now.T_map_base, now.covariance,
                              static_cast<std::size_t>(now.particles)};
-  const auto places = now.places.empty() ? std::span(&alone, 1) : std::span(now.places);
+  const auto of_particles = now.places.empty() ? std::span(&alone, 1) : std::span(now.places);
+  std::vector<PoseHypothesis> both;
+  std::span<const PoseHypothesis> places = of_particles;
+  if (state_.search.searching) places = both = GlobalSearch::with_found(state_.search, of_particles);
   const std::uint32_t heaviest = state_.track.heaviest();
   follow_hypotheses(places, moved, since_s, {}, state_.track, scratch_);
   if (heaviest != 0 && state_.track.heaviest() != heaviest) Monitor::start_over(state_.monitor);
-  state_.updated.T_map_base = now.T_map_base;
-  state_.updated.covariance = now.covariance;
+  state_.updated.T_map_base = places[0].mean;
+  state_.updated.covariance = places[0].covariance;
   state_.updated.ess = now.ess;
   state_.updated.particles = now.particles;
-  state_.updated.hypotheses = now.hypotheses;
-  state_.updated.weight = now.weight;
+  state_.updated.hypotheses = state_.search.searching ? static_cast<int>(places.size()) : now.hypotheses;
+  state_.updated.weight = places[0].weight;
 }
 
 void PoseBelief::judge(const StreamModel& model, const Event& event, const Pose2& moved) {
@@ -159,6 +166,14 @@ void PoseBelief::judge(const StreamModel& model, const Event& event, const Pose2
                                    .quality = now.quality,
                                    .places = state_.track.places,
                                    .innovation_m = state_.started ? apart(predicted, now.T_map_base) : 0.0});
+}
+
+// A robot that is still being looked for.
+void PoseBelief::search(const StreamModel& model, const Event& event) {
+  if (!global_search_.observe(state_.search, event.stream, model, event.payload, state_.track.places,
+                              *filter_))
+    return;
+  summarize({}, 0.0);
 }
 
 // Where a rival wins, the monitor begins anew.
@@ -192,9 +207,10 @@ void PoseBelief::recover(const StreamModel& model, const Event& event, const Pos
 
 // The first measurement of a robot that may be anywhere makes the first particles; it must not weigh them
 // once more.
-void PoseBelief::start_anywhere(const StreamModel& model, const Event::Payload& z) {
+void PoseBelief::start_anywhere(StreamId stream, const Event::Payload& z) {
+  const StreamModel& model = *models_[stream];
   global_start_->weigh(model.bind(z, false), *executor_);
-  global_start_->add_modes(model.locate(z));
+  global_start_->add_modes(global_search_.begin(state_.search, stream, model, z));
   filter_->initialize(
       [&](const RandomStream& random, std::uint32_t i) { return global_start_->sample(random, i); });
 }

@@ -3,6 +3,7 @@
 #include "cairn/core/executor.hpp"
 #include "cairn/localization/cost_clock.hpp"
 #include "cairn/localization/estimate.hpp"
+#include "cairn/localization/global_search.hpp"
 #include "cairn/localization/global_start.hpp"
 #include "cairn/localization/hypothesis_track.hpp"
 #include "cairn/localization/localizer_options.hpp"
@@ -37,6 +38,7 @@ class PoseBelief {
     Trigger trigger;
     /// Null: the filter is initialised; else the first measurement does that.
     std::unique_ptr<GlobalStart> global_start;
+    GlobalSearch global_search;  ///< after a global start
     Monitor monitor;
     std::optional<Recovery> recovery;  ///< nullopt: a lost robot is not looked for
     std::shared_ptr<const Executor> executor;
@@ -84,6 +86,7 @@ class PoseBelief {
     Pose2 pose;  ///< of the last update, for the innovation
     MonitorMemory monitor;
     RecoveryMemory recovery;
+    GlobalSearchMemory search;
   };
 
  public:
@@ -100,7 +103,7 @@ class PoseBelief {
   void resolve_anchors(const OdometryTrack& odometry);
   bool worth_an_update(StreamId stream, Time stamp, const OdometryTrack& odometry,
                        const Scheduler& scheduler) const;
-  void start_anywhere(const StreamModel& model, const Event::Payload& z);
+  void start_anywhere(StreamId stream, const Event::Payload& z);
   bool may_begin(const StreamModel& model, const Event::Payload& z) const;
   Application update(const Event& event, const OdometryTrack& odometry);
   void summarize(const Pose2& moved, double since_s);
@@ -108,12 +111,14 @@ class PoseBelief {
   void recover(const StreamModel& model, const Event& event, const Pose2& moved, double since_s);
   bool surprises(const Event& event, const OdometryTrack& odometry) const;
   void add_rivals(const Pose2& T_then_now, double since_s, HypothesisSnapshot& snapshot) const;
+  void search(const StreamModel& model, const Event& event);
 
   std::unique_ptr<PoseFilter> filter_;
   std::vector<std::unique_ptr<const StreamModel>> models_;
   RandomWalkOptions walk_;
   std::unique_ptr<const cairn::Trigger> update_trigger_;
   std::unique_ptr<GlobalStart> global_start_;
+  GlobalSearch global_search_;
   Monitor monitor_;
   std::optional<Recovery> recovery_;
   std::shared_ptr<const Executor> executor_;

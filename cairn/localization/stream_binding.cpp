@@ -85,8 +85,8 @@ class LaserStream final : public StreamModel {
   double explained_share(const Event::Payload& z, const Pose2& T_map_base) const override {
     return parts_.fine->explained_share(scan_of(z), T_map_base);
   }
-  std::vector<LocatedPose> locate(const Event::Payload& z) const override {
-    return parts_.start ? parts_.start->locate(scan_of(z)) : std::vector<LocatedPose>{};
+  std::vector<LocatedPose> locate(std::span<const Glimpse> way, std::span<const Pose2> asked) const override {
+    return parts_.start ? parts_.start->locate(way, asked) : std::vector<LocatedPose>{};
   }
   std::optional<SearchFinding> search(std::span<const Glimpse> glimpses,
                                       std::span<const Pose2> asked) const override {
@@ -126,8 +126,11 @@ class LaserStream final : public StreamModel {
 
 LaserLocator::Options start_search(const LocalizerOptions& options) {
   LaserLocator::Options o{.likelihood = options.laser.likelihood_field, .search = {}};
+  o.likelihood.sigma_hit_m = options.global.search_sigma_m;
   o.search.most_poses = options.global.most_poses;
   o.search.effective_beams = options.global.effective_beams;
+  o.search.millions_of_points = options.global.search_millions;
+  o.further_beams = options.global.look_beams;
   return o;
 }
 

@@ -55,10 +55,14 @@ class StreamModel {
   /// for a model that looks at end points.
   virtual bool informs(const Event::Payload& z) const = 0;
 
-  /// Where the robot may be that measured z, whatever was believed before; none: this sensor cannot tell.
-  virtual std::vector<LocatedPose> locate(const Event::Payload& /*z*/) const { return {}; }
+  /// Where the robot may be that measured these on its way, the newest last, whatever was believed before:
+  /// the poses T_map_base that were asked for among them, where they fit. None: this sensor cannot tell.
+  virtual std::vector<LocatedPose> locate(std::span<const Glimpse> /*way*/,
+                                          std::span<const Pose2> /*asked*/) const {
+    return {};
+  }
 
-  /// Likewise from several measurements of this stream; `asked` are poses T_map_base to compare with.
+  /// What finds a robot that was lost: likewise, and the evidence against the poses asked for.
   /// nullopt: this sensor cannot tell.
   virtual std::optional<SearchFinding> search(std::span<const Glimpse> /*glimpses*/,
                                               std::span<const Pose2> /*asked*/) const {

@@ -1,0 +1,171 @@
+#include "cairn/localization/global_search.hpp"
+
+#include "fake_fusion.hpp"
+
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+namespace cairn {
+namespace {
+
+constexpr Pose2 kHere{7.0, 3.0, 1.0};
+constexpr Pose2 kThere{-2.0, 5.0, 0.0};
+
+/// Finds what it is told to find.
+class Told final : public StreamModel {
+ public:
+  BoundUpdate<Pose2> bind(const Event::Payload&, bool) const override { return {}; }
+  double explained_share(const Event::Payload&, const Pose2&) const override { return 1.0; }
+  double beams(const Event::Payload&) const override { return 1.0; }
+  bool informs(const Event::Payload&) const override { return true; }
+  std::vector<LocatedPose> locate(std::span<const Glimpse> way, std::span<const Pose2> asked) const override {
+    way_.assign(way.begin(), way.end());
+    asked_.assign(asked.begin(), asked.end());
+    ++searches_;
+    return found_;
+  }
+
+  std::vector<LocatedPose> found_ = {{.T_map_base = kHere, .weight = 1.0}};
+  mutable std::vector<Glimpse> way_;
+  mutable std::vector<Pose2> asked_;
+  mutable int searches_ = 0;
+};
+
+/// Remembers what came in.
+class Listener final : public PoseFilter {
+ public:
+  void initialize(const Sampler&) override {}
+  void predict(const PoseControl&) override {}
+  void correct(const BoundUpdate<Pose2>&) override {}
+  void take_in(std::span<const Pose2> states, std::span<const double> weights, double share) override {
+    states_.assign(states.begin(), states.end());
+    weights_.assign(weights.begin(), weights.end());
+    share_ = share;
+  }
+  bool compact() const override { return compact_; }
+  std::size_t size() const override { return 1; }
+  PoseSummary summarize() const override { return {}; }
+  std::vector<Pose2> sample(std::size_t at_most) const override { return std::vector<Pose2>(at_most); }
+  std::unique_ptr<Checkpoint> new_checkpoint() const override { return nullptr; }
+  void save(Checkpoint&) const override {}
+  void restore(const Checkpoint&) override {}
+
+  bool compact_ = true;
+  std::vector<Pose2> states_;
+  std::vector<double> weights_;
+  double share_ = 0.0;
+};
+
+class GlobalSearchTest : public testing::Test {
+ protected:
+  // Drives straight on; returns how often the belief was changed.
+  int drive(int looks, double step_m = 0.6) {
+    int changed = 0;
+    for (int i = 0; i < looks; ++i) {
+      GlobalSearch::carry(memory_, {.T_before_after = {step_m, 0.0, 0.0}});
+      changed += search_.observe(memory_, 0, model_, {}, places_, filter_) ? 1 : 0;
+    }
+    return changed;
+  }
+
+  GlobalOptions options_;
+  GlobalSearch search_{options_, 5};
+  GlobalSearchMemory memory_;
+  Told model_;
+  Listener filter_;
+  std::vector<Hypothesis> places_{1, Hypothesis{.T_map_base = kHere, .weight = 1.0}};
+};
+
+TEST_F(GlobalSearchTest, SearchesAgainAfterEveryFewLooksAndGivesHalfOfTheBelief) {
+  places_[0].T_map_base = kThere;
+  search_.begin(memory_, 0, model_, {});
+  EXPECT_EQ(drive(options_.search_every - 1), 0);
+  EXPECT_EQ(drive(1), 1);
+  EXPECT_EQ(model_.way_.size(), static_cast<std::size_t>(options_.search_every) + 1);
+  EXPECT_NEAR(model_.way_.front().T_now_then.x, -0.6 * options_.search_every, 1e-12);
+  ASSERT_EQ(model_.asked_.size(), 2U) << "of the belief, and of the search before";
+  EXPECT_EQ(model_.asked_[0].x, kThere.x);
+  EXPECT_EQ(filter_.share_, 0.5);
+  EXPECT_NEAR(std::accumulate(filter_.weights_.begin(), filter_.weights_.end(), 0.0), 1.0, 1e-9);
+  for (const Pose2& state : filter_.states_) EXPECT_NEAR(state.x, kHere.x, 1e-9);
+}
+
+TEST_F(GlobalSearchTest, EndsWhenSearchAndBeliefAgreeAfterEnoughLooks) {
+  search_.begin(memory_, 0, model_, {});
+  drive(5);
+  EXPECT_TRUE(memory_.searching) << "too soon";
+  drive(20);
+  EXPECT_FALSE(memory_.searching);
+  const int searches = model_.searches_;
+  drive(20);
+  EXPECT_EQ(model_.searches_, searches);
+}
+
+TEST_F(GlobalSearchTest, GoesOnWhileTheBeliefIsElsewhereOrWideOrThereAreOtherPlaces) {
+  search_.begin(memory_, 0, model_, {});
+  places_[0].T_map_base = kThere;
+  drive(20);
+  EXPECT_TRUE(memory_.searching);
+  places_[0].T_map_base = kHere;
+  filter_.compact_ = false;
+  drive(20);
+  EXPECT_TRUE(memory_.searching);
+  filter_.compact_ = true;
+  model_.found_ = {{.T_map_base = kHere, .weight = 0.9}, {.T_map_base = kThere, .weight = 0.1}};
+  drive(20);
+  EXPECT_TRUE(memory_.searching);
+}
+
+TEST_F(GlobalSearchTest, StandingStillGivesNoNewLooks) {
+  search_.begin(memory_, 0, model_, {});
+  EXPECT_EQ(drive(100, 0.0), 0);
+  EXPECT_LE(memory_.glimpses.size(), 2U);
+}
+
+TEST_F(GlobalSearchTest, ForgetsTheOldestAndWhatLiesBeforeATimeWithoutOdometry) {
+  filter_.compact_ = false;
+  search_.begin(memory_, 0, model_, {});
+  drive(2 * options_.search_looks);
+  EXPECT_EQ(memory_.glimpses.size(), static_cast<std::size_t>(options_.search_looks));
+  GlobalSearch::carry(memory_, {.T_before_after = {}, .unknown_s = 1.0});
+  EXPECT_TRUE(memory_.glimpses.empty());
+}
+
+TEST_F(GlobalSearchTest, WhatTheSearchHoldsPossibleStaysAPlaceOfTheBelief) {
+  const std::vector<PoseHypothesis> particles{{1.0, kThere, Eigen::Matrix3d::Identity(), 100}};
+  ASSERT_EQ(GlobalSearch::with_found(memory_, particles).size(), 1U);
+  EXPECT_EQ(GlobalSearch::with_found(memory_, particles)[0].weight, 1.0) << "nothing is searched";
+  model_.found_ = {{.T_map_base = kHere, .weight = 0.8}, {.T_map_base = kThere, .weight = 0.2}};
+  search_.begin(memory_, 0, model_, {});
+  const auto both = GlobalSearch::with_found(memory_, particles);
+  ASSERT_EQ(both.size(), 2U);
+  EXPECT_EQ(both[0].mean.x, kThere.x);
+  EXPECT_DOUBLE_EQ(both[0].weight, 0.6);
+  EXPECT_EQ(both[1].mean.x, kHere.x);
+  EXPECT_DOUBLE_EQ(both[1].weight, 0.4);
+}
+
+TEST_F(GlobalSearchTest, ClaimsLittleBeforeItIsConfirmed) {
+  Judgement judgement{.state = TrackingState::kTracking, .probability = 0.999};
+  GlobalSearch::temper(memory_, judgement);
+  EXPECT_EQ(judgement.probability, 0.999) << "nothing is searched";
+  search_.begin(memory_, 0, model_, {});
+  GlobalSearch::temper(memory_, judgement);
+  EXPECT_LE(judgement.probability, GlobalSearch::kMostUnconfirmed);
+  EXPECT_EQ(judgement.state, TrackingState::kAmbiguous);
+  judgement = {.state = TrackingState::kLost, .probability = 0.1};
+  GlobalSearch::temper(memory_, judgement);
+  EXPECT_EQ(judgement.state, TrackingState::kLost);
+  EXPECT_EQ(judgement.probability, 0.1);
+}
+
+TEST_F(GlobalSearchTest, WithoutASensorToSearchWithNothingIsSearched) {
+  model_.found_.clear();
+  EXPECT_TRUE(search_.begin(memory_, 0, model_, {}).empty());
+  EXPECT_FALSE(memory_.searching);
+  EXPECT_EQ(drive(50), 0);
+}
+
+}  // namespace
+}  // namespace cairn
