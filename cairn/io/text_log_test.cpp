@@ -69,6 +69,12 @@ class TextLog : public ::testing::TestWithParam<Reader> {
  private:
   static void check(const Event& event, const StreamInfo& stream) {
     EXPECT_EQ(test::is_scan(event), stream.kind == StreamKind::kLaserScan);
+    if (const auto* beacons = std::get_if<std::shared_ptr<const BeaconRanges>>(&event.payload)) {
+      EXPECT_EQ(stream.kind, StreamKind::kBeaconRanges);
+      for (const BeaconReading& beacon : (*beacons)->readings)
+        EXPECT_TRUE(beacon.range_m > 0.0 && beacon.range_m <= 1e5);
+      return;
+    }
     if (!test::is_scan(event)) {
       EXPECT_TRUE(is_finite(test::pose_of(event)));
       return;

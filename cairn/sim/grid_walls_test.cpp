@@ -32,7 +32,7 @@ TEST(GridWalls, WhereARobotWasIsFree) {
   std::vector<OccupancyGrid::Cell> cells(100, 100);
   const OccupancyGrid full({10, 10, 0.1, {}}, cells);
   const OccupancyGrid cleared =
-      cleared_along(full, {{Time{}, {0.55, 0.55, 0.0}}, {time_from_seconds(1), {0.02, 0.98, 0.0}}}, 0.15);
+      cleared_along(full, {{Time{}, {0.55, 0.55, 0.0}}, {time_from_seconds(1), {0.05, 0.95, 0.0}}}, 0.15);
   EXPECT_EQ(cleared.count(CellState::kFree), 9U + 4U)
       << "a block of nine; at the corner what lies on the grid";
   EXPECT_EQ(cleared.state_at({0.65, 0.65}), CellState::kFree);
