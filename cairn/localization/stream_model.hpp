@@ -70,8 +70,8 @@ class StreamModel {
   }
 
   /// Moves each place T_map_base to where the measurement fits best nearby (within a few decimetres), and
-  /// tells how well: log-likelihood per beam, comparable between places for one measurement. False, and nothing
-  /// changed: this sensor cannot tell. @pre as many places as fits
+  /// tells how well: log-likelihood per beam, comparable between places for one measurement. False, and
+  /// nothing changed: this sensor cannot tell. @pre as many places as fits
   virtual bool follow(const Event::Payload& /*z*/, std::span<Pose2> /*places*/,
                       std::span<double> /*fits*/) const {
     return false;
