@@ -239,7 +239,7 @@ LocalizeResult run_with_progress(const Arguments& arguments, const Inputs& input
 // What can be refused before anything is read.
 void check_arguments(const Arguments& arguments) {
   check_run_directory(arguments.out);
-  TimeSpans("--spans", arguments.spans);
+  const TimeSpans readable("--spans", arguments.spans);  // refuses what is none before anything is read
   parse_seed("--seed", arguments.seed);
   if (arguments.threads < 1 || arguments.threads > Executor::kMostThreads) {
     throw ConfigurationError("--threads", "is " + std::to_string(arguments.threads),
