@@ -1,5 +1,7 @@
 #include "apps/cairn/commands.hpp"
 #include "apps/cairn/kidnap_run.hpp"
+#include "apps/cairn/output_file.hpp"
+#include "apps/cairn/run_directory.hpp"
 #include "apps/cairn/seed_option.hpp"
 #include "cairn/core/errors.hpp"
 #include "cairn/core/executor.hpp"
@@ -11,7 +13,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
 
@@ -188,18 +189,12 @@ std::string summary_of(const std::vector<Run>& runs) {
       counted, within, found.size(), median(found), lost.size(), median(lost), alarms, before_s);
 }
 
-void write_file(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  if (!file.flush()) throw InputError(path.string(), "cannot be written", "check the folder and the disk");
-}
-
 int run_kidnap(const Arguments& arguments) {
   if (arguments.other_log.empty() != arguments.other_reference.empty())
     throw ConfigurationError("--other-log", "needs --other-reference, and that needs it",
                              "give both or none");
+  prepare_output_folder(arguments.out);
   const std::vector<Run> runs = Campaign(arguments).run();
-  std::filesystem::create_directories(arguments.out);
   const std::filesystem::path out = arguments.out;
   write_file(out / "events.csv", events_csv(runs));
   write_file(out / "updates.csv", updates_csv(runs));

@@ -1,5 +1,6 @@
 #include "apps/cairn/log_noise.hpp"
 
+#include "apps/cairn/output_file.hpp"
 #include "apps/cairn/run_directory.hpp"
 #include "apps/cairn/sensor_error_arguments.hpp"
 #include "cairn/eval/metric_style.hpp"
@@ -43,10 +44,10 @@ std::string json_of(const SensorErrors& errors) {
 }
 
 int run_noise(const Arguments& arguments) {
+  if (!arguments.out.empty()) prepare_output_folder(arguments.out);
   const SensorErrors errors = measure(arguments.inputs);
   std::cout << table_of(errors);
   if (arguments.out.empty()) return kOk;
-  std::filesystem::create_directories(arguments.out);
   const auto file = std::filesystem::path(arguments.out) / kNoiseFile;
   write_file(file, json_of(errors));
   std::cout << "written to " << file.string() << "\n";

@@ -1,6 +1,7 @@
 #include "apps/cairn/map_ambiguity.hpp"
 
 #include "apps/cairn/ambiguity_picture.hpp"
+#include "apps/cairn/output_file.hpp"
 #include "apps/cairn/progress.hpp"
 #include "apps/cairn/run_directory.hpp"
 #include "cairn/core/angle.hpp"
@@ -165,11 +166,7 @@ void check_arguments(const Arguments& a) {
   if (a.threads < 1 || a.threads > Executor::kMostThreads)
     throw ConfigurationError("--threads", "is " + std::to_string(a.threads),
                              "use 1 to " + std::to_string(Executor::kMostThreads));
-  if (a.out.empty()) return;
-  std::error_code error;
-  fs::create_directories(a.out, error);
-  if (error || !fs::is_directory(a.out))
-    throw ConfigurationError("--out", "'" + a.out + "' cannot be made a folder", "name another one");
+  if (!a.out.empty()) prepare_output_folder(a.out);
 }
 
 LikelihoodFieldOptions read_model(const Arguments& arguments) {

@@ -8,4 +8,8 @@ namespace cairn::app {
 /// Throws ConfigurationError if `path` is empty or a folder, or if a file cannot be made or replaced there.
 void prepare_output_file(const std::filesystem::path& path);
 
+/// Makes the folder that a command writes several files into, before its long work.
+/// Throws ConfigurationError if it cannot be made, or may not be written to.
+void prepare_output_folder(const std::filesystem::path& folder);
+
 }  // namespace cairn::app

@@ -39,6 +39,15 @@ TEST_F(OutputFile, RefusesWhatIsNoPlaceForAFile) {
   EXPECT_THROW(prepare_output_file(folder_ / "file" / "map.yaml"), ConfigurationError);
 }
 
+TEST_F(OutputFile, MakesAFolderOrRefuses) {
+  prepare_output_folder(folder_ / "a" / "b");
+  EXPECT_TRUE(fs::is_directory(folder_ / "a" / "b"));
+  std::ofstream(folder_ / "file") << "x";
+  EXPECT_THROW(prepare_output_folder(""), ConfigurationError);
+  EXPECT_THROW(prepare_output_folder(folder_ / "file"), ConfigurationError);
+  EXPECT_THROW(prepare_output_folder(folder_ / "file" / "below"), ConfigurationError);
+}
+
 TEST_F(OutputFile, RefusesAFolderWithoutPermission) {
   if (geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
   fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec);

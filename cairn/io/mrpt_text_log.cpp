@@ -3,14 +3,18 @@
 #include "cairn/core/angle.hpp"
 #include "cairn/io/text_log.hpp"
 
+#include <algorithm>
+#include <string>
 #include <utility>
 
 namespace cairn {
 namespace {
 
-// The aperture is printed with six decimals: a full turn may come out a little larger.
 constexpr double kFarthestBeacon_m = 1e5;
+// The aperture is printed with six decimals: a full turn may come out a little larger.
 constexpr double kWidestApertureRad = kTwoPi + 1e-5;
+constexpr const char* kWithoutStamp = "beacon without stamp";
+constexpr const char* kNoLaser = "a frame has BEACON, but no LASER to tell when";
 
 class Reader {
  public:
@@ -23,18 +27,20 @@ class Reader {
     } else if (name == "LASER") {
       read_laser(fields, builder);
     } else if (name == "BEACON") {
-      read_beacon(fields);
+      read_beacon(fields, builder);
     } else {
       fields.fail("the line starts with none of FRAME, ODO, LASER, BEACON", "check how the log was made");
     }
   }
 
+  /// Whether the log ends with beacons that no LASER gave a stamp.
+  bool has_beacons_left() const { return !beacons_.empty(); }
+
  private:
   void read_frame(FieldReader& fields, TextLogBuilder& builder) {
     fields.integer("frame number");
     fields.expect_end();
-    if (!beacons_.empty())
-      builder.warn("beacon without stamp", "a frame has BEACON, but no LASER to tell when");
+    if (!beacons_.empty()) builder.warn(kWithoutStamp, kNoLaser);
     beacons_.clear();
     T_odom_base_ = T_odom_base_ * T_this_next_;
     T_this_next_ = {};
@@ -72,13 +78,20 @@ class Reader {
   }
 
   // Told before the laser of their frame, which has the stamp.
-  void read_beacon(FieldReader& fields) {
+  void read_beacon(FieldReader& fields, TextLogBuilder& builder) {
     const long long id = fields.integer("beacon");
     const double range_m = fields.number("range");
     fields.expect_end();
     if (!(range_m >= 0.0 && range_m <= kFarthestBeacon_m))
       fields.fail("range is negative or beyond 100 km", "write metres");
-    if (range_m > 0.0) beacons_.push_back({std::to_string(id), range_m});
+    if (range_m == 0.0) return;
+    const std::string name = std::to_string(id);
+    const auto is_same = [&](const BeaconReading& reading) { return reading.id == name; };
+    if (std::any_of(beacons_.begin(), beacons_.end(), is_same)) {
+      builder.warn("beacon told twice", "a frame has two ranges of beacon " + name + "; the first is kept");
+      return;
+    }
+    beacons_.push_back({name, range_m});
   }
 
   void add_beacons(Time stamp, TextLogBuilder& builder) {
@@ -96,9 +109,11 @@ class Reader {
 
 Log read_mrpt_text_log(std::istream& input, const std::string& name) {
   Reader reader;
-  return read_text_log(input, name, "mrpt_text", [&reader](FieldReader& fields, TextLogBuilder& builder) {
+  Log log = read_text_log(input, name, "mrpt_text", [&reader](FieldReader& fields, TextLogBuilder& builder) {
     reader.read_message(fields, builder);
   });
+  if (reader.has_beacons_left()) log.diagnostics.warn(kWithoutStamp, name, kNoLaser);
+  return log;
 }
 
 }  // namespace cairn

@@ -16,8 +16,8 @@ namespace cairn {
 ///   (x, y, 0); just before it, with the same stamp, the pose of frame k as odometry "odom", from (0, 0, 0)
 ///   on.
 /// - `BEACON id range`: one of the readings of "uwb", stamped as the scan of its frame (without one: counted
-/// as
-///   "beacon without stamp"); a range of 0 is none. Where the antenna is the log does not tell.
+///   as "beacon without stamp"); a range of 0 is none, a second one of the same beacon is counted as "beacon
+///   told twice". Where the antenna is the log does not tell.
 ///
 /// A range of `range_max` or more is no return.
 /// Beams stand aperture/(n-1) apart, starting at -aperture/2. What is done about malformed lines: see

@@ -71,6 +71,15 @@ TEST(MrptTextLog, BeaconsBelongToTheScanOfTheirFrame) {
   EXPECT_EQ(count(log, "malformed line"), 1);
 }
 
+TEST(MrptTextLog, BeaconsThatCannotBeKeptAreCounted) {
+  const Log log = read("FRAME 0\nBEACON 1 5\nBEACON 1 6\n" + laser("10") + "FRAME 1\nBEACON 1 4\n");
+  const auto& ranges = *std::get<std::shared_ptr<const BeaconRanges>>(log.events[2].payload);
+  ASSERT_EQ(ranges.readings.size(), 1U);
+  EXPECT_EQ(ranges.readings[0].range_m, 5.0);
+  EXPECT_EQ(count(log, "beacon told twice"), 1);
+  EXPECT_EQ(count(log, "beacon without stamp"), 1) << "the last frame has no laser";
+}
+
 TEST(MrptTextLog, MalformedLines) {
   const std::string good = "FRAME 0\nODO 0 0 0\n" + laser("10");
   const struct {

@@ -1,6 +1,7 @@
 #include "cairn/localization/global_search.hpp"
 
 #include "fake_fusion.hpp"
+#include "listening_filter.hpp"
 
 #include <numeric>
 
@@ -32,31 +33,6 @@ class Told final : public StreamModel {
   mutable int searches_ = 0;
 };
 
-/// Remembers what came in.
-class Listener final : public PoseFilter {
- public:
-  void initialize(const Sampler&) override {}
-  void predict(const PoseControl&) override {}
-  void correct(const BoundUpdate<Pose2>&) override {}
-  void take_in(std::span<const Pose2> states, std::span<const double> weights, double share) override {
-    states_.assign(states.begin(), states.end());
-    weights_.assign(weights.begin(), weights.end());
-    share_ = share;
-  }
-  bool compact() const override { return compact_; }
-  std::size_t size() const override { return 1; }
-  PoseSummary summarize() const override { return {}; }
-  std::vector<Pose2> sample(std::size_t at_most) const override { return std::vector<Pose2>(at_most); }
-  std::unique_ptr<Checkpoint> new_checkpoint() const override { return nullptr; }
-  void save(Checkpoint&) const override {}
-  void restore(const Checkpoint&) override {}
-
-  bool compact_ = true;
-  std::vector<Pose2> states_;
-  std::vector<double> weights_;
-  double share_ = 0.0;
-};
-
 class GlobalSearchTest : public testing::Test {
  protected:
   // Drives straight on; returns how often the belief was changed.
@@ -73,7 +49,7 @@ class GlobalSearchTest : public testing::Test {
   GlobalSearch search_{options_, 5};
   GlobalSearchMemory memory_;
   Told model_;
-  Listener filter_;
+  test::ListeningFilter filter_;
   std::vector<Hypothesis> places_{1, Hypothesis{.T_map_base = kHere, .weight = 1.0}};
 };
 

@@ -3,6 +3,7 @@
 #include "cairn/core/angle.hpp"
 #include "cairn/core/errors.hpp"
 #include "fake_fusion.hpp"
+#include "listening_filter.hpp"
 
 #include <cmath>
 
@@ -45,30 +46,6 @@ class FoundElsewhere final : public StreamModel {
   double gain_;
 };
 
-/// Remembers what came in.
-class Listener final : public PoseFilter {
- public:
-  void initialize(const Sampler&) override {}
-  void predict(const PoseControl&) override {}
-  void correct(const BoundUpdate<Pose2>&) override {}
-  void take_in(std::span<const Pose2> states, std::span<const double> weights, double share) override {
-    states_.assign(states.begin(), states.end());
-    weights_.assign(weights.begin(), weights.end());
-    share_ = share;
-  }
-  bool compact() const override { return true; }
-  std::size_t size() const override { return 1; }
-  PoseSummary summarize() const override { return {}; }
-  std::vector<Pose2> sample(std::size_t at_most) const override { return std::vector<Pose2>(at_most); }
-  std::unique_ptr<Checkpoint> new_checkpoint() const override { return nullptr; }
-  void save(Checkpoint&) const override {}
-  void restore(const Checkpoint&) override {}
-
-  std::vector<Pose2> states_;
-  std::vector<double> weights_;
-  double share_ = 0.0;
-};
-
 class RecoveryTest : public testing::Test {
  protected:
   void observe(const StreamModel& model, double at_s, bool in_doubt) {
@@ -86,7 +63,7 @@ class RecoveryTest : public testing::Test {
   Recovery recovery_{
       RecoveryOptions{.active = true, .rival_beams = FoundElsewhere::kBeams, .accept = 3.0, .confirm = 0}, 1};
   RecoveryMemory memory_;
-  Listener filter_;
+  test::ListeningFilter filter_;
 };
 
 // One nat is what the best of many places fits better by chance.

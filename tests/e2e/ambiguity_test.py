@@ -47,7 +47,7 @@ class Ambiguity(CliTest):
             self.assert_refused(self.run_cairn("map", "ambiguity", "--map", "a.map.yaml", option, "0"), USAGE)
         self.assert_refused(self.run_cairn("map", "ambiguity", "--map", "none.yaml"), BAD_INPUT, "none.yaml")
         self.write("file", "")
-        self.assert_refused(self.run_cairn("map", "ambiguity", "--map", "a.map.yaml", "--out", "file"), USAGE, "--out")
+        self.assert_refused(self.run_cairn("map", "ambiguity", "--map", "a.map.yaml", "--out", "file"), USAGE, "file", "--out")
 
 
 if __name__ == "__main__":

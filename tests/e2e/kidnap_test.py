@@ -57,7 +57,7 @@ class Kidnap(CliTest):
         for option, value in (("--events", "-1"), ("--before", "0"), ("--after", "-3"), ("--distance", "x"), ("--jobs", "0"), ("--seed", "x")):
             self.assert_refused(self.kidnap(option, value), USAGE, option)
         self.write("file", "")
-        self.assertNotEqual(self.kidnap("--events", "1", "--before", "4", "--after", "4", out="file").returncode, OK)
+        self.assert_refused(self.kidnap("--events", "1", "--before", "4", "--after", "4", out="file"), USAGE, "file")
 
 
 if __name__ == "__main__":

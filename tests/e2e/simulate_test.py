@@ -213,6 +213,10 @@ class Simulate(unittest.TestCase):
         self.assertEqual(self.simulate("w.yaml", "--out", "w.mcap", "--duration", 5).returncode, OK)
         nothing = subprocess.run([PROGRAM, "tune", "uwb", "--log", "w.mcap", *inputs[:4]], cwd=self.folder, capture_output=True, text=True)
         self.assertEqual(nothing.returncode, USAGE)
+        refused = subprocess.run([PROGRAM, "log", "noise", "--log", "w.mcap", *inputs, "--out", "w.yaml"], cwd=self.folder,
+                                 capture_output=True, text=True)
+        self.assertEqual((refused.returncode, refused.stdout), (USAGE, ""), "refused before anything is measured")
+        self.assertIn("w.yaml: is no folder", refused.stderr)
         self.assertIn("beacon", nothing.stderr)
 
     def test_the_noise_of_the_wheels_is_learnt_back(self):
