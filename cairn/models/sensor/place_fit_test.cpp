@@ -1,5 +1,7 @@
 #include "cairn/models/sensor/place_fit.hpp"
 
+#include "cairn/core/angle.hpp"
+#include "cairn/core/rng.hpp"
 #include "mini_maps.hpp"
 
 #include <gtest/gtest.h>
@@ -10,13 +12,21 @@ namespace {
 class PlaceFitTest : public testing::Test {
  protected:
   double fit(Pose2 place) const { return fit_.follow(scan_, place); }
+  PlaceFit make(const PlaceFitOptions& options) const {
+    return {std::make_shared<const BeamClassifier>(std::make_shared<const OccupancyGrid>(map_), walls_,
+                                                   std::make_shared<const RayMarcher>(map_, 50.0), Pose2{},
+                                                   BeamLimits{}),
+            walls_, Pose2{}, BeamLimits{}, options};
+  }
+  double fit_with_every_fourth_range(float factor) {
+    scan_ = test::scan_of(map_, truth_, 180);
+    for (std::size_t i = 0; i < 180; i += 4) scan_.ranges_m[i] *= factor;
+    return fit(truth_);
+  }
 
   OccupancyGrid map_ = test::mini_room();
   std::shared_ptr<const DistanceField> walls_ = std::make_shared<const DistanceField>(map_, 2.0);
-  PlaceFit fit_{std::make_shared<const BeamClassifier>(std::make_shared<const OccupancyGrid>(map_), walls_,
-                                                       std::make_shared<const RayMarcher>(map_, 50.0),
-                                                       Pose2{}, BeamLimits{}),
-                walls_, Pose2{}, BeamLimits{}};
+  PlaceFit fit_ = make({});
   Pose2 truth_{3.0, 2.0, 0.4};
   LaserScan scan_ = test::scan_of(map_, truth_, 180);
 };
@@ -37,6 +47,26 @@ TEST_F(PlaceFitTest, PeopleSpoilTheTruePlaceLessThanWallsThatBeamsPassThrough) {
   for (std::size_t i = 0; i < 90; ++i) scan_.ranges_m[i] = std::min(scan_.ranges_m[i], 0.4f);
   EXPECT_GT(fit(truth_), -1.2);  // half of the beams at log 0.15
   EXPECT_LT(fit({6.8, 1.2, 2.5}), fit(truth_));
+}
+
+// A quarter of the beams, at 4 nat each beyond a wall and at 0.25 before it. Some that pass a wall end near
+// another one by chance.
+TEST_F(PlaceFitTest, ABeamThroughAWallCostsMuchMoreThanOneThatIsBlocked) {
+  const double through = fit_with_every_fourth_range(1.5f), before = fit_with_every_fourth_range(0.5f);
+  EXPECT_LT(before, -0.25 * 0.25 * 0.8);
+  EXPECT_LT(through, 8.0 * before);
+}
+
+TEST_F(PlaceFitTest, NoPlaceMovesToAWorseOne) {
+  for (std::size_t i = 0; i < 90; ++i) scan_.ranges_m[i] = std::min(scan_.ranges_m[i], 0.4f);
+  const PlaceFit still = make({.reach_m = 1e-9, .reach_rad = 1e-9});
+  const RandomStream random(1, RandomPurpose::kTest, 0);
+  for (std::uint32_t i = 0; i < 200; ++i) {
+    const auto u = random.uniform4(i);
+    const Pose2 place{8.0 * u[0], 5.0 * u[1], kTwoPi * u[2] - kPi};
+    Pose2 stays = place;
+    EXPECT_GE(fit(place), still.follow(scan_, stays) - 1e-9) << i;
+  }
 }
 
 TEST_F(PlaceFitTest, AScanWithoutABeamSaysNothingAndMovesNothing) {
