@@ -2,6 +2,7 @@
 
 #include "cairn/bayes/injections/injections.hpp"
 #include "cairn/bayes/injections/measurement_source.hpp"
+#include "cairn/bayes/injections/worse_than_usual.hpp"
 #include "cairn/bayes/resampling/resampling_schemes.hpp"
 #include "cairn/bayes/resampling/two_stage.hpp"
 #include "cairn/core/errors.hpp"
@@ -12,6 +13,7 @@ namespace {
 
 using Filter = ParticleFilter<Pose2, Pose2>;
 using Size = std::unique_ptr<SampleSize<Pose2>>;
+constexpr Pose2 kOffTheMap{1e7, 1e7, 0.0};
 constexpr double kForgetsAll = 0.0;  // the paper's eta = 1 / C_j
 
 using Source = std::shared_ptr<const SampleFrom<Pose2>>;
@@ -44,6 +46,15 @@ struct Kitchen {
   }
   std::unique_ptr<Injection<Pose2>> resetting() const {
     return std::make_unique<SensorResetting<Pose2>>(filter().resetting, beams(), source());
+  }
+  /// Tables 2 and 4, step 2, while something is wrong (decision 73).
+  std::unique_ptr<Injection<Pose2>> growing() const {
+    const LikelihoodFieldOptions& beam = options.laser.likelihood_field;
+    return std::make_unique<WhileWorseThanUsual<Pose2>>(
+        WhileWorseThanUsual<Pose2>::Usual{.averages = filter().augmented,
+                                          .nowhere = kOffTheMap,
+                                          .least = beam.z_rand / (beam.z_hit + beam.z_rand)},
+        std::make_unique<NewFromMeasurement<Pose2>>(source()));
   }
   TriggerOptions always() const {
     TriggerOptions trigger = filter().resample;
@@ -98,7 +109,7 @@ Filter srl(const Kitchen& k) {
 
 Filter kld_srl(const Kitchen& k) {
   auto parts = k.plain(k.kld(), k.always());
-  parts.injection = std::make_unique<NewFromMeasurement<Pose2>>(k.source());
+  parts.injection = k.growing();
   return k.serve(std::move(parts));
 }
 
@@ -110,7 +121,7 @@ Filter csrl(const Kitchen& k) {
 
 Filter ckld_srl(const Kitchen& k) {
   auto parts = k.clustered(k.never_fewer(), kForgetsAll);
-  parts.injection = std::make_unique<NewFromMeasurement<Pose2>>(k.source());
+  parts.injection = k.growing();
   return k.serve(std::move(parts));
 }
 

@@ -1,20 +1,48 @@
 #include "cairn/bayes/resampling/two_stage.hpp"
 
 #include "cairn/bayes/resampling/systematic.hpp"
+#include "cairn/core/batch_math.hpp"
 #include "cairn/core/errors.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cairn {
 
+namespace {
+
+// Wider than that, particles at one place have several headings.
+constexpr double kOneHeading_rad = 0.5;
+
+// Standard deviation on the circle.
+double heading_spread(std::span<const Pose2> poses, std::span<const double> weights) {
+  double cosine = 0.0, sine = 0.0, sum = 0.0;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    cosine += weights[i] * std::cos(poses[i].theta), sine += weights[i] * std::sin(poses[i].theta);
+    sum += weights[i];
+  }
+  return std::sqrt(-2.0 * std::log(std::clamp(std::hypot(cosine, sine) / sum, 1e-300, 1.0)));
+}
+
+}  // namespace
+
+// A belief that the moves hold for one compact group is one cluster, stragglers included, if it was one
+// before or has one heading: what lies beside it is no hypothesis, and no share of the particles is kept for
+// it (decision 73). The first portion of a scan often leaves several headings of a robot that has turned far.
 bool ClusterWatch::fit(const ParticleSet<Pose2>& particles) {
+  const bool compact = moves_->fit(particles);
   std::vector<double> weights(particles.size());
-  for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = std::exp(particles.log_weights[i]);
+  exp_all(particles.log_weights, 0.0, weights);
+  table_->particles = particles.size();
+  const bool was_one = table_->clusters == 1;
+  if (compact && (was_one || heading_spread(particles.states, weights) < kOneHeading_rad)) {
+    table_->label.assign(particles.size(), 0);
+    table_->clusters = 1;
+    return true;
+  }
   PoseHypotheses hypotheses = find_hypotheses(particles.states, weights, options_);
   table_->label = std::move(hypotheses.label);
   table_->clusters = hypotheses.found.size();
-  table_->particles = particles.size();
-  const bool compact = moves_->fit(particles);
   return compact && table_->clusters == 1;
 }
 

@@ -3,6 +3,7 @@
 #include "cairn/bayes/pose_kernel.hpp"
 #include "cairn/bayes/resampling/cumulative_weights.hpp"
 #include "cairn/bayes/resampling/systematic.hpp"
+#include "cairn/core/angle.hpp"
 #include "cairn/core/statistics.hpp"
 
 #include <algorithm>
@@ -64,13 +65,45 @@ TEST(TwoStage, SharesDifferByAtMostOne) {
 TEST(ClusterWatch, SeveralClustersAreNotCompact) {
   const auto table = std::make_shared<ClusterTable>();
   ClusterWatch watch(table, {}, std::make_unique<PoseKernel>(PoseKernelOptions{}));
-  ParticleSet<Pose2> particles{{{0.0, 0.0, 0.0}, {10.0, 0.0, 0.0}}, {std::log(0.97), std::log(0.03)}};
+  ParticleSet<Pose2> particles{{{0.0, 0.0, 0.0}, {10.0, 0.0, 0.0}}, {std::log(0.93), std::log(0.07)}};
   EXPECT_FALSE(watch.fit(particles));
   EXPECT_EQ(table->clusters, 2u);
   EXPECT_EQ(table->label, (std::vector<int>{0, 1}));
   particles.log_weights = {std::log(0.999), std::log(0.001)};
   EXPECT_TRUE(watch.fit(particles));
-  EXPECT_EQ(table->label, (std::vector<int>{0, -1}));
+  EXPECT_EQ(table->clusters, 1u);
+  particles.states[1] = {0.1, 0.0, 1.6};
+  particles.log_weights = {std::log(0.7), std::log(0.3)};
+  EXPECT_TRUE(watch.fit(particles));  // on the way of one belief to a narrow one
+  EXPECT_EQ(table->clusters, 1u);
+}
+
+// What tracks one pose is not split by stragglers (a wide turn by bad odometry): they neither get a share of
+// their own nor are they given up.
+TEST(ClusterWatch, StragglersOfACompactBeliefAreNoHypothesis) {
+  const auto table = std::make_shared<ClusterTable>();
+  ClusterWatch watch(table, {}, std::make_unique<PoseKernel>(PoseKernelOptions{}));
+  EXPECT_TRUE(watch.fit({{{0.0, 0.0, 0.0}, {0.1, 0.0, 0.9}}, {std::log(0.97), std::log(0.03)}}));
+  EXPECT_EQ(table->clusters, 1u);
+  EXPECT_EQ(table->label, (std::vector<int>{0, 0}));
+  EXPECT_EQ(table->particles, 2u);
+}
+
+// Poses that cross at one place are as near to each other as those of a compact belief, but for their
+// headings.
+TEST(ClusterWatch, HeadingsThatCrossAtOnePlaceAreHypotheses) {
+  const auto table = std::make_shared<ClusterTable>();
+  ClusterWatch watch(table, {}, std::make_unique<PoseKernel>(PoseKernelOptions{}));
+  for (const int count : {2, 4}) {
+    ParticleSet<Pose2> particles;
+    for (int i = 0; i < count; ++i) {
+      particles.states.push_back({0.1 * i, 0.0, normalize_angle(i * kTwoPi / count)});
+      particles.log_weights.push_back(-std::log(count));
+    }
+    table->clusters = static_cast<std::size_t>(count);  // before they met
+    EXPECT_FALSE(watch.fit(particles));
+    EXPECT_EQ(table->clusters, static_cast<std::size_t>(count));
+  }
 }
 
 TEST(ClusterWatch, ItsMemoryComesBack) {

@@ -1,36 +1,36 @@
 #include "cairn/models/search/least_cost_windows.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace cairn {
 namespace {
 
 constexpr double kSteps = 255.0;
+constexpr auto kMost = static_cast<std::uint8_t>(kSteps);
+// Windows of a tier, in quarters of its stride: at most a quarter wider than needed up to twice the stride.
+constexpr std::array kQuarters = {4, 5, 6, 7, 8, 10, 12, 16};
+constexpr int kLargest = 128;  // a point that reaches farther costs nothing in a bound
+constexpr int kMargin = kLargest + 1;
 
 double negative_log(const LikelihoodFieldOptions& o, double distance_m) {
   const double d = distance_m / o.sigma_hit_m;
   return -std::log(o.z_hit * std::exp(-d * d / 2.0) + o.z_rand);
 }
 
-// 1, 2, 3, 4, 6, 8, 12, 16, ...: at most half as wide again as needed.
-int next_size(int size) {
-  if (size < 2) return size + 1;
-  const bool power_of_two = (size & (size - 1)) == 0;
-  return power_of_two ? size + size / 2 : size / 3 * 4;
+std::vector<int> sizes_of(int tier) {
+  if (tier == 0) return {1};
+  std::vector<int> sizes;
+  for (const int quarters : kQuarters) {
+    const int size = LeastCostWindows::stride(tier) * quarters / 4;
+    if (size <= kLargest) sizes.push_back(size);
+  }
+  return sizes;
 }
 
 }  // namespace
 
-LeastCostWindows::Plane::Plane(int columns, int rows, int size)
-    : columns_(columns),
-      rows_(rows),
-      size_(size),
-      stride_(static_cast<std::size_t>(columns + size) + 1),
-      steps_(stride_ * (static_cast<std::size_t>(rows + size) + 1), static_cast<std::uint8_t>(kSteps)) {}
-
 LeastCostWindows::LeastCostWindows(const DistanceField& field, const LikelihoodFieldOptions& model,
-                                   const CellBox& box, int largest_window)
+                                   const CellBox& box)
     : box_(box),
       least_(negative_log(model, 0.0)),
       far_(static_cast<float>(negative_log(model, field.max_distance_m()) - least_)) {
@@ -43,44 +43,82 @@ LeastCostWindows::LeastCostWindows(const DistanceField& field, const LikelihoodF
       costs_.push_back(static_cast<float>(negative_log(model, field.distance_m(cell)) - least_));
     }
   }
-  planes_.push_back(quantised());
-  std::size_t half = 0;  // the largest plane of a power of two: any window up to twice as wide is four of its
-  for (int size = next_size(1); size <= largest_window; size = next_size(size)) {
-    planes_.push_back(pooled(planes_[half], size));
-    if ((size & (size - 1)) == 0) half = planes_.size() - 1;
+  Windows half = quantised();  // of a power of two: any window up to twice as wide is four of its
+  for (int tier = 0; tier < kTiers; ++tier) {
+    for (const int size : sizes_of(tier)) {
+      while (2 * half.size <= size) half = pooled(half, 2 * half.size);
+      tiers_[static_cast<std::size_t>(tier)].push_back(
+          in_order(size == half.size ? half : pooled(half, size), tier));
+    }
   }
 }
 
-LeastCostWindows::Plane LeastCostWindows::quantised() const {
-  Plane plane(box_.columns, box_.rows, 1);
+std::size_t LeastCostWindows::place(int column, int row) const {
+  return static_cast<std::size_t>(row + kMargin) * static_cast<std::size_t>(box_.columns + 2 * kMargin) +
+         static_cast<std::size_t>(column + kMargin);
+}
+
+LeastCostWindows::Windows LeastCostWindows::quantised() const {
+  Windows windows{1, std::vector<std::uint8_t>(place(box_.columns + kMargin, box_.rows + kMargin), kMost)};
   for (int row = 0; row < box_.rows; ++row) {
     for (int column = 0; column < box_.columns; ++column) {
       const double steps = std::floor(cost(column, row) / cost_per_step_);
-      plane.cell(column, row) = static_cast<std::uint8_t>(std::clamp(steps, 0.0, kSteps));
+      windows.steps[place(column, row)] = static_cast<std::uint8_t>(std::clamp(steps, 0.0, kSteps));
     }
   }
-  return plane;
+  return windows;
 }
 
 // The least of four windows that overlap: their corners are those of the larger one.
-LeastCostWindows::Plane LeastCostWindows::pooled(const Plane& smaller, int size) const {
-  Plane plane(box_.columns, box_.rows, size);
-  const int shift = size - smaller.size();
-  for (int row = -size; row <= box_.rows; ++row) {
-    for (int column = -size; column <= box_.columns; ++column) {
-      const std::uint8_t lower = std::min(smaller.at(column, row), smaller.at(column + shift, row));
-      const std::uint8_t upper =
-          std::min(smaller.at(column, row + shift), smaller.at(column + shift, row + shift));
-      plane.cell(column, row) = std::min(lower, upper);
-    }
+LeastCostWindows::Windows LeastCostWindows::pooled(const Windows& smaller, int size) const {
+  Windows windows{size, std::vector<std::uint8_t>(smaller.steps.size(), kMost)};
+  const int shift = size - smaller.size;
+  const auto count = static_cast<std::size_t>(box_.columns + size);
+  const auto right = static_cast<std::size_t>(shift);
+  for (int row = -size; row < box_.rows; ++row) {
+    const std::uint8_t* lower = &smaller.steps[place(-size, row)];
+    const std::uint8_t* upper = &smaller.steps[place(-size, row + shift)];
+    std::uint8_t* out = &windows.steps[place(-size, row)];
+    for (std::size_t i = 0; i < count; ++i)
+      out[i] = std::min(std::min(lower[i], lower[i + right]), std::min(upper[i], upper[i + right]));
+  }
+  return windows;
+}
+
+// Those that are a stride apart next to each other.
+LeastCostWindows::Plane LeastCostWindows::in_order(const Windows& windows, int tier) const {
+  Plane plane;
+  plane.size_ = windows.size;
+  plane.columns_ = box_.columns, plane.rows_ = box_.rows;
+  plane.margin_ = windows.size + 3 * stride(tier);
+  plane.shift_ = 2 * tier;
+  const auto places_for = [&](int cells) {
+    const int all = plane.margin_ + cells + 4 * stride(tier);
+    return static_cast<std::size_t>((all >> plane.shift_) + 1);
+  };
+  plane.row_step_ = places_for(box_.columns);
+  plane.phase_size_ = plane.row_step_ * places_for(box_.rows);
+  plane.steps_.assign(plane.phase_size_ << (2 * plane.shift_), kMost);
+  const std::size_t within = (std::size_t{1} << plane.shift_) - 1;
+  const auto first = static_cast<std::size_t>(plane.margin_ - windows.size);
+  const auto count = static_cast<std::size_t>(box_.columns + windows.size);
+  for (int row = -windows.size; row < box_.rows; ++row) {
+    const std::uint8_t* from = &windows.steps[place(-windows.size, row)];
+    // Where the row begins, in the first phase of the columns.
+    const auto r = static_cast<std::size_t>(row + plane.margin_);
+    std::uint8_t* to = plane.steps_.data() + ((r & within) << plane.shift_) * plane.phase_size_ +
+                       (r >> plane.shift_) * plane.row_step_;
+    for (std::size_t c = first; c < first + count; ++c)
+      to[(c & within) * plane.phase_size_ + (c >> plane.shift_)] = *from++;
   }
   return plane;
 }
 
-std::size_t LeastCostWindows::plane_for(int size) const {
-  const auto large_enough = [size](const Plane& plane) { return plane.size() >= size; };
-  return static_cast<std::size_t>(std::find_if(planes_.begin(), planes_.end(), large_enough) -
-                                  planes_.begin());
+const LeastCostWindows::Plane* LeastCostWindows::plane_for(int tier, int size) const {
+  const std::vector<Plane>& all = planes(tier);
+  const auto found =
+      std::find_if(all.begin(), all.end(), [size](const Plane& plane) { return plane.size() >= size; });
+  return found == all.end() ? nullptr : &*found;
 }
 
 double LeastCostWindows::cost(int column, int row) const {

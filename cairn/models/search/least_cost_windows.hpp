@@ -4,6 +4,8 @@
 #include "cairn/models/sensor/likelihood_field.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -23,42 +25,51 @@ struct CellBox {
 /// The cost is -log(z_hit exp(-d^2 / (2 sigma_hit^2)) + z_rand) less the smallest value that it can take, so
 /// that 0 is a point on a wall; d is the distance to the nearest occupied cell. Window costs are rounded down
 /// to 1/255 of the largest cost, so that a window never costs more than any of its cells.
+///
+/// A search divides boxes of poses by four along each side. Boxes of one tier are 4^tier cells apart; the
+/// windows that 4 x 4 of them ask for lie side by side in memory.
 class LeastCostWindows {
  public:
-  /// @param largest_window cells along a side; at least 1
-  /// @param box cells outside cost as much as those far from every wall
-  LeastCostWindows(const DistanceField& field, const LikelihoodFieldOptions& model, const CellBox& box,
-                   int largest_window);
+  static constexpr int kTiers = 4;
+  /// Cells from a box of this tier to the next, and along its side.
+  static constexpr int stride(int tier) { return 1 << (2 * tier); }
 
-  /// One plane: least cost, in steps, of the windows of `size` x `size` cells by their lower left cell.
+  /// @param box cells outside cost as much as those far from every wall
+  LeastCostWindows(const DistanceField& field, const LikelihoodFieldOptions& model, const CellBox& box);
+
+  /// Least cost, in steps, of the windows of `size` x `size` cells by their lower left cell.
   class Plane {
    public:
-    Plane(int columns, int rows, int size);
     int size() const { return size_; }
     /// Any integers: a window off the map costs the most.
-    std::uint8_t at(int column, int row) const {
-      const int c = std::clamp(column, -size_, columns_) + size_;
-      const int r = std::clamp(row, -size_, rows_) + size_;
-      return steps_[static_cast<std::size_t>(r) * stride_ + static_cast<std::size_t>(c)];
+    std::uint8_t at(int column, int row) const { return *block(column, row); }
+    /// The windows at (column + j stride, row + i stride), i and j from 0 to 3: j next to each other, i
+    /// row_step() apart. Any integers.
+    const std::uint8_t* block(int column, int row) const {
+      const auto c = static_cast<std::size_t>(std::clamp(column, -margin_, columns_) + margin_);
+      const auto r = static_cast<std::size_t>(std::clamp(row, -margin_, rows_) + margin_);
+      const std::size_t within = (std::size_t{1} << shift_) - 1;
+      const std::size_t phase = ((r & within) << shift_) + (c & within);
+      return steps_.data() + phase * phase_size_ + (r >> shift_) * row_step_ + (c >> shift_);
     }
+    std::size_t row_step() const { return row_step_; }
 
    private:
     friend class LeastCostWindows;
-    std::uint8_t& cell(int column, int row) {
-      return steps_[static_cast<std::size_t>(row + size_) * stride_ +
-                    static_cast<std::size_t>(column + size_)];
-    }
-    int columns_;
-    int rows_;
-    int size_;
-    std::size_t stride_;
+    int size_ = 0;
+    int columns_ = 0;
+    int rows_ = 0;
+    int margin_ = 0;  ///< of columns and rows whose blocks are off the map
+    int shift_ = 0;   ///< log2 of the stride
+    std::size_t row_step_ = 0;
+    std::size_t phase_size_ = 0;
     std::vector<std::uint8_t> steps_;
   };
 
-  /// Index of the smallest plane whose windows hold `size` cells along a side; planes() if there is none.
-  std::size_t plane_for(int size) const;
-  std::size_t planes() const { return planes_.size(); }
-  const Plane& plane(std::size_t index) const { return planes_[index]; }
+  /// The planes of a tier, the smallest windows first.
+  const std::vector<Plane>& planes(int tier) const { return tiers_[static_cast<std::size_t>(tier)]; }
+  /// That of the smallest windows that hold `size` cells along a side; nullptr if there is none.
+  const Plane* plane_for(int tier, int size) const;
 
   /// Exact cost of an end point in a cell, counted from the box's first cell; any integers.
   double cost(int column, int row) const;
@@ -67,15 +78,23 @@ class LeastCostWindows {
   double least() const { return least_; }
 
  private:
-  Plane quantised() const;
-  Plane pooled(const Plane& smaller, int size) const;
+  /// Steps of windows row by row, with the margin that the largest of them need.
+  struct Windows {
+    int size;
+    std::vector<std::uint8_t> steps;
+  };
+
+  std::size_t place(int column, int row) const;
+  Windows quantised() const;
+  Windows pooled(const Windows& smaller, int size) const;
+  Plane in_order(const Windows& windows, int tier) const;
 
   CellBox box_;
   double least_;
   double cost_per_step_;
   float far_;
   std::vector<float> costs_;
-  std::vector<Plane> planes_;
+  std::array<std::vector<Plane>, kTiers> tiers_;
 };
 
 }  // namespace cairn

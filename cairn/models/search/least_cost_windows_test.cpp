@@ -14,7 +14,7 @@ class LeastCostWindowsTest : public ::testing::Test {
   OccupancyGrid map_ = test::mini_room();
   LikelihoodFieldOptions model_;
   DistanceField field_{map_, model_.max_distance_m};
-  LeastCostWindows windows_{field_, model_, {0, 0, 160, 100}, 24};
+  LeastCostWindows windows_{field_, model_, {0, 0, 160, 100}};
 };
 
 double oracle(const DistanceField& field, const LikelihoodFieldOptions& o, int column, int row) {
@@ -31,27 +31,49 @@ TEST_F(LeastCostWindowsTest, CostsAreThoseOfTheLikelihoodField) {
   }
 }
 
-TEST_F(LeastCostWindowsTest, SizesGrowByAtMostHalf) {
-  for (std::size_t i = 1; i < windows_.planes(); ++i) {
-    EXPECT_GT(windows_.plane(i).size(), windows_.plane(i - 1).size());
-    EXPECT_LE(windows_.plane(i).size(), std::max(2, windows_.plane(i - 1).size() * 3 / 2));
+TEST_F(LeastCostWindowsTest, SizesGrowByAtMostAThird) {
+  for (int tier = 1; tier < LeastCostWindows::kTiers; ++tier) {
+    const auto& planes = windows_.planes(tier);
+    EXPECT_EQ(planes.front().size(), LeastCostWindows::stride(tier));
+    for (std::size_t i = 1; i < planes.size(); ++i) {
+      EXPECT_GT(planes[i].size(), planes[i - 1].size());
+      EXPECT_LE(3 * planes[i].size(), 4 * planes[i - 1].size());
+    }
+    EXPECT_EQ(windows_.plane_for(tier, planes[0].size() + 1), &planes[1]);
+    EXPECT_EQ(windows_.plane_for(tier, planes.back().size() + 1), nullptr);
   }
-  EXPECT_EQ(windows_.plane(windows_.plane_for(5)).size(), 6);
-  EXPECT_EQ(windows_.plane_for(25), windows_.planes());
 }
 
 // Every plane against a plain search of each window, inside, across the border and outside.
 TEST_F(LeastCostWindowsTest, AWindowCostsTheLeastOfItsCellsRoundedDown) {
-  for (std::size_t i = 0; i < windows_.planes(); ++i) {
-    const auto& plane = windows_.plane(i);
-    for (int row = -30; row < 130; row += 13) {
-      for (int column = -30; column < 190; column += 17) {
-        double least = 1e9;
-        for (int r = row; r < row + plane.size(); ++r) {
-          for (int c = column; c < column + plane.size(); ++c) least = std::min(least, windows_.cost(c, r));
+  for (int tier = 0; tier < LeastCostWindows::kTiers; ++tier) {
+    for (const auto& plane : windows_.planes(tier)) {
+      for (int row = -150; row < 130; row += 23) {
+        for (int column = -150; column < 190; column += 37) {
+          double least = 1e9;
+          for (int r = row; r < row + plane.size(); ++r) {
+            for (int c = column; c < column + plane.size(); ++c) least = std::min(least, windows_.cost(c, r));
+          }
+          EXPECT_EQ(plane.at(column, row), static_cast<int>(least / windows_.cost_per_step() + 1e-9))
+              << column << ' ' << row << ' ' << plane.size();
         }
-        EXPECT_EQ(plane.at(column, row), static_cast<int>(least / windows_.cost_per_step() + 1e-9))
-            << column << ' ' << row << ' ' << plane.size();
+      }
+    }
+  }
+}
+
+TEST_F(LeastCostWindowsTest, ABlockHoldsWindowsAStrideApart) {
+  for (int tier = 0; tier < LeastCostWindows::kTiers; ++tier) {
+    const int step = LeastCostWindows::stride(tier);
+    for (const auto& plane : windows_.planes(tier)) {
+      for (const auto& [column, row] : {std::pair{3, 5}, {-70, 40}, {158, 97}, {-900, 20}, {20, 900}}) {
+        const std::uint8_t* block = plane.block(column, row);
+        for (int i = 0; i < 16; ++i) {
+          EXPECT_EQ(
+              block[static_cast<std::size_t>(i / 4) * plane.row_step() + static_cast<std::size_t>(i % 4)],
+              plane.at(column + i % 4 * step, row + i / 4 * step))
+              << column << ' ' << row << ' ' << plane.size() << ' ' << i;
+        }
       }
     }
   }
@@ -61,9 +83,9 @@ TEST(LeastCostWindows, AModelThatNoDistanceChangesCostsNothing) {
   const OccupancyGrid map = test::mini_room();
   LikelihoodFieldOptions model;
   model.z_hit = 0.0;
-  const LeastCostWindows windows(DistanceField(map, 1.0), model, {0, 0, 160, 100}, 4);
+  const LeastCostWindows windows(DistanceField(map, 1.0), model, {0, 0, 160, 100});
   EXPECT_EQ(windows.cost(50, 50), 0.0);
-  EXPECT_EQ(windows.plane(0).at(50, 50), 0);
+  EXPECT_EQ(windows.planes(0)[0].at(50, 50), 0);
 }
 
 }  // namespace

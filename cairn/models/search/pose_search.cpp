@@ -2,10 +2,12 @@
 
 #include "cairn/core/angle.hpp"
 #include "cairn/core/errors.hpp"
+#include "cairn/models/search/block_sums.hpp"
 #include "cairn/models/search/least_cost_windows.hpp"
 #include "cairn/models/search/rotated_points.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -14,25 +16,24 @@
 namespace cairn {
 namespace {
 
-constexpr int kLevels = 6;          // boxes of up to 32 cells and headings
-constexpr int kLargestWindow = 96;  // a point that reaches farther costs nothing in the bound
+constexpr int kTiers = LeastCostWindows::kTiers;
+constexpr int kLevels = 2 * kTiers - 1;  // of headings: those of boxes, and halves of them
+constexpr int kLargestWindow = 128;      // a point that reaches farther costs nothing in the bound
 constexpr double kFarthest_cells = 16000.0;
 constexpr double kSteeringShare = 0.9;  // share of the points that the headings' step must not move by a cell
-constexpr std::size_t kFirstLook = 24;  // points of a box's first, rough bound
+constexpr std::size_t kFirstLook = 4;   // a quarter of the points: a box's first, rough bound
 constexpr int kMostDives = 1000;
 
 double turn_between(const Pose2& a, const Pose2& b) { return std::abs(normalize_angle(a.theta - b.theta)); }
 
-/// What may still hold the best pose: 2^level x 2^level cells from (column, row), 2^level headings.
+/// What may still hold the best pose: 4^tier x 4^tier cells from (column, row), 4^tier headings.
 struct Box {
   std::int32_t column;
   std::int32_t row;
-  std::int32_t heading;  // index of the group at its level
+  std::int32_t heading;  // index of the group at its tier
   std::uint32_t cost;    // bound, in steps
-  std::uint32_t first;   // share of the first points
-  std::uint32_t rest;    // share of the others; of the parent while `rough`
-  std::uint8_t level;
-  bool rough;
+  std::uint32_t rest;    // share of the points after the first look
+  std::uint8_t tier;
 };
 
 struct Leaf {
@@ -91,7 +92,7 @@ struct PoseSearch::Map {
   Map(const OccupancyGrid& map, const LikelihoodFieldOptions& model)
       : Map(map, model, DistanceField(map, model.max_distance_m)) {}
   Map(const OccupancyGrid& map, const LikelihoodFieldOptions& model, const DistanceField& field)
-      : box(known_cells(map, field)), windows(field, model, box, kLargestWindow) {
+      : box(known_cells(map, field)), windows(field, model, box) {
     geometry = map.geometry();
     geometry.T_map_grid = geometry.T_map_grid * Pose2{box.first_column * geometry.resolution_m,
                                                       box.first_row * geometry.resolution_m, 0.0};
@@ -193,12 +194,52 @@ class CostQueue {
   std::vector<std::vector<Item>> buckets_;
 };
 
+/// Costs that some distinct poses are known to have: what the last of the poses to be found cannot exceed.
+class Incumbents {
+ public:
+  explicit Incumbents(const PoseSearchQuery& query) : query_(query) {}
+
+  void add(const FoundPose& pose) {
+    best_ = std::max(best_, pose.log_likelihood);
+    const auto near = [&](const FoundPose& other) {
+      return distance(pose.T_map_base, other.T_map_base) < 2.0 * query_.separation_m &&
+             turn_between(pose.T_map_base, other.T_map_base) < 2.0 * query_.separation_rad;
+    };
+    const auto better = [&](const FoundPose& other) {
+      return near(other) && other.log_likelihood >= pose.log_likelihood;
+    };
+    if (std::any_of(poses_.begin(), poses_.end(), better)) return;
+    poses_.erase(std::remove_if(poses_.begin(), poses_.end(), near), poses_.end());
+    poses_.insert(std::upper_bound(poses_.begin(), poses_.end(), pose,
+                                   [](const FoundPose& a, const FoundPose& b) {
+                                     return a.log_likelihood > b.log_likelihood;
+                                   }),
+                  pose);
+    const auto most = static_cast<std::size_t>(query_.most_poses);
+    if (poses_.size() > most) poses_.pop_back();
+    if (poses_.size() == most) least_ = std::max(least_, poses_.back().log_likelihood);
+  }
+
+  /// No pose that the search has to find is less likely. So many poses, twice as far apart as distinct ones
+  /// must be: one that was found is near to one of them at most, so that there is always one of them left.
+  double least() const { return std::max(least_, best_ - query_.margin); }
+
+ private:
+  const PoseSearchQuery& query_;
+  std::vector<FoundPose> poses_;
+  double best_ = -std::numeric_limits<double>::infinity();
+  double least_ = -std::numeric_limits<double>::infinity();
+};
+
 class BranchAndBound {
  public:
   BranchAndBound(const LeastCostWindows& windows, const GridGeometry& grid, const AllowedBoxes& allowed,
                  const RotatedPoints& points, const PoseSearchQuery& query)
-      : windows_(windows), grid_(grid), allowed_(allowed), points_(points), query_(query) {
-    for (int side = 0; side <= kLargestWindow; ++side) plane_of_side_.push_back(windows.plane_for(side));
+      : windows_(windows), grid_(grid), allowed_(allowed), points_(points), query_(query), known_(query) {
+    for (int tier = 0; tier < kTiers; ++tier) {
+      for (int side = 0; side <= kLargestWindow; ++side)
+        planes_[static_cast<std::size_t>(tier)].push_back(windows.plane_for(tier, side));
+    }
   }
 
   PoseSearchResult run() {
@@ -213,41 +254,53 @@ class BranchAndBound {
   }
 
  private:
-  std::uint32_t bound(const Box& box, std::size_t first, std::size_t last) {
-    const auto reaches = points_.at(box.level, box.heading);
-    const int more = (1 << box.level) - 1;
-    std::uint32_t cost = 0;
+  /// Adds the costs of points [first, last) in the 4 x 4 boxes of a tier from (column, row).
+  void add(BlockSums& sums, int tier, int heading, const Box& from, std::size_t first, std::size_t last) {
+    const auto reaches = points_.at(2 * tier, heading);
+    const auto& planes = planes_[static_cast<std::size_t>(tier)];
+    const int more = LeastCostWindows::stride(tier) - 1;
     for (std::size_t k = first; k < last; ++k) {
       const RotatedPoints::Reach& r = reaches[k];
       const int side = r.side + more;
-      if (side > kLargestWindow) continue;
-      const std::size_t plane = plane_of_side_[static_cast<std::size_t>(side)];
-      cost += windows_.plane(plane).at(box.column + r.column, box.row + r.row);
+      const auto* plane = side > kLargestWindow ? nullptr : planes[static_cast<std::size_t>(side)];
+      if (plane == nullptr) continue;  // no bound
+      sums.add(plane->block(from.column + r.column, from.row + r.row), plane->row_step());
     }
     result_.evaluated += static_cast<std::int64_t>(last - first);
-    return cost;
   }
 
-  std::size_t first_look() const { return std::min(kFirstLook, points_.points()); }
+  std::size_t first_look() const { return points_.points() / kFirstLook; }
 
-  void push_top_boxes() {
-    const int level = kLevels - 1;
-    for (int row = 0; row < allowed_.rows(level); ++row) {
-      for (int column = 0; column < allowed_.columns(level); ++column) {
-        if (!allowed_.any(level, column, row)) continue;
-        for (int heading = 0; heading < points_.headings(level); ++heading) {
-          push({column << level, row << level, heading, 0, 0, 0, static_cast<std::uint8_t>(level), true});
-        }
-      }
+  /// The 4 x 4 boxes of a tier from where `from` begins, for one group of headings: those that may hold what
+  /// is looked for. First a few points, with the parent's bound for all others.
+  void bound(const Box& from, int tier, int heading, std::vector<Box>& parts) {
+    BlockSums sums;
+    add(sums, tier, heading, from, 0, first_look());
+    const BlockSums::Sums first = sums.sums();
+    if (*std::min_element(first.begin(), first.end()) + from.rest > most_) return;
+    add(sums, tier, heading, from, first_look(), points_.points());
+    const BlockSums::Sums& all = sums.sums();
+    const int step = LeastCostWindows::stride(tier);
+    for (int i = 0; i < 16; ++i) {
+      const auto n = static_cast<std::size_t>(i);
+      const Box part{from.column + i % 4 * step,  from.row + i / 4 * step, heading,
+                     std::max(from.cost, all[n]), all[n] - first[n],       static_cast<std::uint8_t>(tier)};
+      if (part.cost <= most_ && allowed_.any(2 * tier, part.column / step, part.row / step))
+        parts.push_back(part);
     }
   }
 
-  // A first, rough bound: the parent's holds for its children, and so does the parent's for most points with
-  // the child's own for the first ones.
-  void push(Box box) {
-    box.first = bound(box, 0, first_look());
-    box.cost = std::max(box.cost, box.first + box.rest);
-    boxes_.push(box.cost, box);
+  void push_top_boxes() {
+    constexpr int kTop = kTiers - 1;
+    const int step = 4 * LeastCostWindows::stride(kTop);
+    for (int row = 0; row < grid_.height; row += step) {
+      for (int column = 0; column < grid_.width; column += step) {
+        parts_.clear();
+        for (int heading = 0; heading < points_.headings(2 * kTop); ++heading)
+          bound({column, row, 0, 0, 0, kTiers}, kTop, heading, parts_);
+        for (const Box& part : parts_) boxes_.push(part.cost, part);
+      }
+    }
   }
 
   void divide_all(std::uint32_t cost) {
@@ -255,75 +308,72 @@ class BranchAndBound {
       const Box box = boxes_.at(cost).back();
       boxes_.at(cost).pop_back();
       if (is_settled(box)) continue;
-      if (result_.evaluated > query_.budget) {
-        dive(box);
-      } else if (box.rough) {
-        look_closer(box);
-      } else if (box.level > 0) {
-        for (const Box& part : parts_of(box)) push(part);
-      } else {
+      if (box.tier == 0) {
         weigh(box);
+      } else if (result_.evaluated > query_.budget) {
+        dive(box);
+      } else {
+        for (const Box& part : parts_of(box)) boxes_.push(part.cost, part);
       }
     }
   }
 
-  void look_closer(Box box) {
-    box.rest = bound(box, first_look(), points_.points());
-    box.cost = std::max(box.cost, box.first + box.rest);
-    box.rough = false;
-    boxes_.push(box.cost, box);
+  const std::vector<Box>& parts_of(const Box& box) {
+    parts_.clear();
+    for (int part = 0; part < 4; ++part) bound(box, box.tier - 1, 4 * box.heading + part, parts_);
+    if (box.tier == 1) learn(parts_);
+    return parts_;
   }
 
-  std::vector<Box>& parts_of(const Box& box) {
-    parts_.clear();
-    const int level = box.level - 1;
-    const int half = 1 << level;
-    for (int part = 0; part < 8; ++part) {
-      const int column = box.column + ((part & 1) != 0 ? half : 0);
-      const int row = box.row + ((part & 2) != 0 ? half : 0);
-      if (!allowed_.any(level, column >> level, row >> level)) continue;
-      parts_.push_back({column, row, 2 * box.heading + (part >> 2), box.cost, 0, box.rest,
-                        static_cast<std::uint8_t>(level), true});
-    }
-    return parts_;
+  // The best of some poses may lower what is still worth looking at.
+  void learn(const std::vector<Box>& parts) {
+    if (parts.empty()) return;
+    const Leaf leaf = leaf_of(*std::min_element(parts.begin(), parts.end(),
+                                                [](const Box& a, const Box& b) { return a.cost < b.cost; }));
+    known_.add({pose_of(leaf), log_likelihood_of(leaf.cost)});
+    const double steps = cost_of(known_.least()) / windows_.cost_per_step();
+    if (steps < static_cast<double>(most_)) most_ = static_cast<std::uint32_t>(std::max(0.0, steps)) + 1;
   }
 
   // Out of budget: straight down to one good pose of the box.
   void dive(Box box) {
     result_.complete = false;
     if (++dives_ > kMostDives) return;
-    while (box.level > 0) {
-      std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
-      for (const Box& part : parts_of(box)) {
-        const std::uint32_t cost = bound(part, 0, points_.points());
-        if (cost < least) least = cost, box = part;
-      }
+    while (box.tier > 0) {
+      const std::vector<Box>& parts = parts_of(box);
+      if (parts.empty()) return;
+      box = *std::min_element(parts.begin(), parts.end(),
+                              [](const Box& a, const Box& b) { return a.cost < b.cost; });
     }
     weigh(box);
   }
 
   // True if every pose of the box is one of those already found.
   bool is_settled(const Box& box) const {
-    const double cells = (1 << box.level) - 1;
+    const int side = LeastCostWindows::stride(box.tier);
+    const double cells = side - 1;
     const double half_m = cells / 2.0 * grid_.resolution_m;
     const double half_rad = cells / 2.0 * points_.heading_step_rad();
     const Point2 corner = grid_.center(box.column, box.row);
-    const Pose2 middle =
-        Pose2{corner.x, corner.y, grid_.T_map_grid.theta} *
-        Pose2{half_m, half_m, (box.heading << box.level) * points_.heading_step_rad() + half_rad};
+    const Pose2 middle = Pose2{corner.x, corner.y, grid_.T_map_grid.theta} *
+                         Pose2{half_m, half_m, box.heading * side * points_.heading_step_rad() + half_rad};
     return std::any_of(result_.poses.begin(), result_.poses.end(), [&](const FoundPose& found) {
       return distance(middle, found.T_map_base) + std::sqrt(2.0) * half_m < query_.separation_m &&
              turn_between(middle, found.T_map_base) + half_rad < query_.separation_rad;
     });
   }
 
-  void weigh(const Box& box) {
+  Leaf leaf_of(const Box& box) const {
     double cost = 0.0;
-    for (const RotatedPoints::Reach& r : points_.at(0, box.heading)) {
+    for (const RotatedPoints::Reach& r : points_.at(0, box.heading))
       cost += windows_.cost(box.column + r.column, box.row + r.row);
-    }
-    const auto steps = static_cast<std::uint32_t>(cost / windows_.cost_per_step());
-    leaves_.push(std::max(steps, box.cost), {cost, box.heading, box.row, box.column});
+    return {cost, box.heading, box.row, box.column};
+  }
+
+  void weigh(const Box& box) {
+    const Leaf leaf = leaf_of(box);
+    const auto steps = static_cast<std::uint32_t>(leaf.cost / windows_.cost_per_step());
+    leaves_.push(std::max(steps, box.cost), leaf);
   }
 
   // Returns true when the search is over.
@@ -348,6 +398,7 @@ class BranchAndBound {
   double log_likelihood_of(double cost) const {
     return -cost - windows_.least() * static_cast<double>(points_.points());
   }
+  double cost_of(double log_likelihood) const { return log_likelihood_of(log_likelihood); }
 
   Pose2 pose_of(const Leaf& leaf) const {
     const Point2 center = grid_.center(leaf.column, leaf.row);
@@ -367,7 +418,9 @@ class BranchAndBound {
   const AllowedBoxes& allowed_;
   const RotatedPoints& points_;
   const PoseSearchQuery& query_;
-  std::vector<std::size_t> plane_of_side_;
+  std::array<std::vector<const LeastCostWindows::Plane*>, kTiers> planes_;  ///< by the side of the window
+  Incumbents known_;
+  std::uint32_t most_ = std::numeric_limits<std::uint32_t>::max();  ///< boxes that cost more are not needed
   std::vector<Box> parts_;
   int dives_ = 0;
   CostQueue<Box> boxes_;
