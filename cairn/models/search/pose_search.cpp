@@ -448,11 +448,14 @@ PoseSearchResult PoseSearch::find(std::span<const Point2> points, const PoseSear
 }
 
 double PoseSearch::log_likelihood(std::span<const Point2> points, const Pose2& T_map_base) const {
+  const Pose2 T_grid_base = inverse(map_->geometry.T_map_grid) * T_map_base;
+  const double per_m = 1.0 / map_->geometry.resolution_m;
+  const double x = per_m * T_grid_base.x, y = per_m * T_grid_base.y;
+  const double c = per_m * std::cos(T_grid_base.theta), s = per_m * std::sin(T_grid_base.theta);
   double sum = 0.0;
   for (const Point2& p : points) {
-    const Point2 cell = map_->geometry.to_cells(T_map_base * p);
-    sum -= map_->windows.cost(static_cast<int>(std::floor(cell.x)), static_cast<int>(std::floor(cell.y))) +
-           map_->windows.least();
+    const double column = std::floor(x + c * p.x - s * p.y), row = std::floor(y + s * p.x + c * p.y);
+    sum -= map_->windows.cost(static_cast<int>(column), static_cast<int>(row)) + map_->windows.least();
   }
   return sum;
 }
