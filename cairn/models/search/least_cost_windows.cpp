@@ -12,6 +12,8 @@ constexpr std::array kQuarters = {4, 5, 6, 7, 8, 10, 12, 16};
 constexpr int kLargest = 128;  // a point that reaches farther costs nothing in a bound
 constexpr int kMargin = kLargest + 1;
 
+std::size_t whole(int number) { return static_cast<std::size_t>(number); }
+
 double negative_log(const LikelihoodFieldOptions& o, double distance_m) {
   const double d = distance_m / o.sigma_hit_m;
   return -std::log(o.z_hit * std::exp(-d * d / 2.0) + o.z_rand);
@@ -54,8 +56,7 @@ LeastCostWindows::LeastCostWindows(const DistanceField& field, const LikelihoodF
 }
 
 std::size_t LeastCostWindows::place(int column, int row) const {
-  return static_cast<std::size_t>(row + kMargin) * static_cast<std::size_t>(box_.columns + 2 * kMargin) +
-         static_cast<std::size_t>(column + kMargin);
+  return whole(row + kMargin) * whole(box_.columns + 2 * kMargin) + whole(column + kMargin);
 }
 
 LeastCostWindows::Windows LeastCostWindows::quantised() const {
@@ -73,7 +74,7 @@ LeastCostWindows::Windows LeastCostWindows::quantised() const {
 LeastCostWindows::Windows LeastCostWindows::pooled(const Windows& smaller, int size) const {
   Windows windows{size, std::vector<std::uint8_t>(smaller.steps.size(), kMost)};
   const int shift = size - smaller.size;
-  const auto count = static_cast<std::size_t>(box_.columns + size);
+  const auto count = whole(box_.columns + size);
   const auto right = static_cast<std::size_t>(shift);
   for (int row = -size; row < box_.rows; ++row) {
     const std::uint8_t* lower = &smaller.steps[place(-size, row)];
@@ -94,18 +95,18 @@ LeastCostWindows::Plane LeastCostWindows::in_order(const Windows& windows, int t
   plane.shift_ = 2 * tier;
   const auto places_for = [&](int cells) {
     const int all = plane.margin_ + cells + 4 * stride(tier);
-    return static_cast<std::size_t>((all >> plane.shift_) + 1);
+    return whole((all >> plane.shift_) + 1);
   };
   plane.row_step_ = places_for(box_.columns);
   plane.phase_size_ = plane.row_step_ * places_for(box_.rows);
   plane.steps_.assign(plane.phase_size_ << (2 * plane.shift_), kMost);
   const std::size_t within = (std::size_t{1} << plane.shift_) - 1;
-  const auto first = static_cast<std::size_t>(plane.margin_ - windows.size);
-  const auto count = static_cast<std::size_t>(box_.columns + windows.size);
+  const auto first = whole(plane.margin_ - windows.size);
+  const auto count = whole(box_.columns + windows.size);
   for (int row = -windows.size; row < box_.rows; ++row) {
     const std::uint8_t* from = &windows.steps[place(-windows.size, row)];
     // Where the row begins, in the first phase of the columns.
-    const auto r = static_cast<std::size_t>(row + plane.margin_);
+    const auto r = whole(row + plane.margin_);
     std::uint8_t* to = plane.steps_.data() + ((r & within) << plane.shift_) * plane.phase_size_ +
                        (r >> plane.shift_) * plane.row_step_;
     for (std::size_t c = first; c < first + count; ++c)

@@ -46,8 +46,9 @@ class LeastCostWindows {
     /// The windows at (column + j stride, row + i stride), i and j from 0 to 3: j next to each other, i
     /// row_step() apart. Any integers.
     const std::uint8_t* block(int column, int row) const {
-      const auto c = static_cast<std::size_t>(std::clamp(column, -margin_, columns_) + margin_);
-      const auto r = static_cast<std::size_t>(std::clamp(row, -margin_, rows_) + margin_);
+      const int from_left = std::clamp(column, -margin_, columns_) + margin_;
+      const int from_below = std::clamp(row, -margin_, rows_) + margin_;
+      const auto c = static_cast<std::size_t>(from_left), r = static_cast<std::size_t>(from_below);
       const std::size_t within = (std::size_t{1} << shift_) - 1;
       const std::size_t phase = ((r & within) << shift_) + (c & within);
       return steps_.data() + phase * phase_size_ + (r >> shift_) * row_step_ + (c >> shift_);
