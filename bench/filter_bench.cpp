@@ -17,30 +17,30 @@ std::shared_ptr<const LikelihoodField> laser_model(const LikelihoodFieldOptions&
       BeamLimits{}, options);
 }
 
-// Weights of very different size, as after a scan.
-std::vector<double> some_log_weights(std::size_t count) {
-  std::vector<double> log_weights(count);
+// Weights of very different size, as a correction leaves them.
+std::vector<double> some_weights(std::size_t count) {
+  std::vector<double> log_weights(count), weights;
   const RandomStream random(1, RandomPurpose::kTest, 1);
   for (std::size_t i = 0; i < count; ++i) log_weights[i] = random.normal4(static_cast<std::uint32_t>(i))[0];
-  normalize_log_weights(log_weights);
-  return log_weights;
+  normalize_weights(log_weights, weights);
+  return weights;
 }
 
 // Draws a generation and asks KLD-sampling how large it must be. Items are particles.
 void resample_kld(benchmark::State& state) {
   const auto count = static_cast<std::size_t>(state.range(0));
   const std::vector<Pose2> states = tracking_particles(count);
-  const std::vector<double> log_weights = some_log_weights(count);
+  const std::vector<double> weights = some_weights(count);
   std::vector<double> cumulative;
   std::vector<std::uint32_t> ancestors;
   std::vector<Pose2> next;
   KldSize size({}, count, count);
   for (auto _ : state) {
-    cumulative_weights(log_weights, cumulative);
+    cumulative_sums(weights, cumulative);
     ancestors.clear();
-    next.clear();
     draw_systematic(cumulative, size.begin(), 0.5, ancestors);
-    for (const std::uint32_t ancestor : ancestors) next.push_back(states[ancestor]);
+    next.resize(ancestors.size());
+    for (std::size_t i = 0; i < next.size(); ++i) next[i] = states[ancestors[i]];
     benchmark::DoNotOptimize(size.wanted(next));
     benchmark::DoNotOptimize(next.data());
   }

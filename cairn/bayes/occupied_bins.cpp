@@ -1,14 +1,23 @@
 #include "cairn/bayes/occupied_bins.hpp"
 
 #include "cairn/core/angle.hpp"
+#include "cairn/core/pose_cells.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace cairn {
 namespace {
 
 constexpr double kHalfSide = 16.0;  // of OccupiedBins::kSide cells
+constexpr std::size_t kAtOnce = 256;
+
+// The cell of a pose that find_cells finds none for: perhaps its heading is not in [-pi, pi).
+std::int32_t unusual(const PoseCells& cells, const Pose2& pose) {
+  if (pose.theta >= -kPi && pose.theta < kPi) return PoseCells::kNone;
+  return cells.cell_of({pose.x, pose.y, normalize_angle(pose.theta)});
+}
 
 }  // namespace
 
@@ -38,25 +47,24 @@ void OccupiedBins::put_marks_around(const Pose2& pose) {
 
 void OccupiedBins::insert(std::span<const Pose2> poses) {
   if (!placed_ && !poses.empty()) put_marks_around(poses.front());
-  std::size_t fresh = 0;
-  for (const Pose2& pose : poses) {
-    const double x = pose.x * cells_per_m_ - first_x_, y = pose.y * cells_per_m_ - first_y_;
-    const double theta = pose.theta >= -kPi && pose.theta < kPi ? pose.theta : normalize_angle(pose.theta);
-    const bool near = x >= 0.0 && x < kSide && y >= 0.0 && y < kSide;
-    if (!near || std::isnan(theta)) {
-      far_.insert(bins_.key(pose));
-      continue;
+  const PoseCells near = {cells_per_m_, first_x_, first_y_, kSide, headings_};
+  std::array<std::int32_t, kAtOnce> cells;
+  for (; !poses.empty(); poses = poses.subspan(std::min(kAtOnce, poses.size()))) {
+    const auto some = poses.first(std::min(kAtOnce, poses.size()));
+    find_cells(near, some, std::span(cells).first(some.size()));
+    std::size_t fresh = 0;
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      const std::int32_t cell = cells[i] != PoseCells::kNone ? cells[i] : unusual(near, some[i]);
+      if (cell == PoseCells::kNone) {
+        far_.insert(bins_.key(some[i]));
+        continue;
+      }
+      std::uint8_t& mark = marks_[static_cast<std::size_t>(cell)];
+      fresh += mark != round_ ? 1 : 0;
+      mark = round_;
     }
-    // A turn more, so that cutting off is rounding down.
-    const auto turn = static_cast<std::int32_t>(theta * cells_per_rad_ + headings_);
-    const std::int32_t heading = turn >= headings_ ? turn - headings_ : turn;
-    const std::int32_t row = static_cast<std::int32_t>(y) * kSide + static_cast<std::int32_t>(x);
-    std::uint8_t& mark = marks_[static_cast<std::size_t>(row) * static_cast<std::size_t>(headings_) +
-                                static_cast<std::size_t>(heading)];
-    fresh += mark != round_ ? 1 : 0;
-    mark = round_;
+    near_ += fresh;
   }
-  near_ += fresh;
 }
 
 }  // namespace cairn

@@ -326,7 +326,9 @@ class ParticleFilter {
   void draw_ancestors(std::size_t count, const DrawingNumbers& numbers) {
     ancestors_.clear();
     parts_.resampling->draw(cumulative_, count, numbers, ancestors_);
-    for (const std::uint32_t ancestor : ancestors_) next_.push_back(particles_.states[ancestor]);
+    const std::size_t first = next_.size();
+    next_.resize(first + count);
+    for (std::size_t i = 0; i < count; ++i) next_[first + i] = particles_.states[ancestors_[i]];
   }
 
   void spread(std::span<State> states, std::size_t first, std::uint16_t draw) {

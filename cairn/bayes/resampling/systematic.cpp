@@ -1,5 +1,7 @@
 #include "cairn/bayes/resampling/systematic.hpp"
 
+#include "cairn/core/batch_math.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -8,17 +10,6 @@ namespace cairn {
 namespace {
 
 constexpr std::size_t kAtOnce = 256;
-using Ends = std::array<std::int32_t, kAtOnce>;
-
-// Tooth t lies at (t + offset) / count: so many lie below the end of each index.
-void find_ends(std::span<const double> cumulative, double count, double offset, Ends& ends) {
-  for (std::size_t i = 0; i < cumulative.size(); ++i) {
-    const double teeth = cumulative[i] * count - offset;
-    const auto whole = static_cast<std::int32_t>(teeth);
-    ends[i] = whole + (static_cast<double>(whole) < teeth ? 1 : 0);
-  }
-}
-
 }  // namespace
 
 void draw_systematic(std::span<const double> cumulative, std::size_t count, double offset,
@@ -27,11 +18,12 @@ void draw_systematic(std::span<const double> cumulative, std::size_t count, doub
   const std::size_t first = ancestors.size();
   ancestors.resize(first + count + kUnasked);
   std::uint32_t* const out = ancestors.data() + first;
-  Ends ends;
+  std::array<std::int32_t, kAtOnce> ends;
   std::size_t drawn = 0;
   for (std::size_t begin = 0; begin < cumulative.size(); begin += kAtOnce) {
     const auto block = cumulative.subspan(begin, std::min(kAtOnce, cumulative.size() - begin));
-    find_ends(block, static_cast<double>(count), offset, ends);
+    // Tooth t lies at (t + offset) / count: so many lie below the end of each index.
+    ceilings(block, static_cast<double>(count), offset, std::span(ends).first(block.size()));
     for (std::size_t i = 0; i < block.size(); ++i) {
       const auto index = static_cast<std::uint32_t>(begin + i);
       const auto end = static_cast<std::size_t>(ends[i]);
