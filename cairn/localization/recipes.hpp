@@ -20,7 +20,8 @@ std::vector<std::string> recipe_names();
 ///   amcl      kld_mcl; while measurements are worse than usual, particles come from p(x | z)
 /// and those of Sehestedt & Schneider (ICINCO 2006), with samples of p(x | z) where they say so:
 ///   srl       mcl with sensor resetting (their section 3.1)
-///   kld_srl   kld_mcl; the particles by which the set grows come from p(x | z) (table 2)
+///   kld_srl   kld_mcl; the particles by which the set grows come from p(x | z) (table 2), while measurements
+///             fit worse than usual (decision 73)
 ///   csrl      srl with two-stage cluster sampling, no resetting while there are several clusters (table 3)
 ///   ckld_srl  kld_srl with two-stage cluster sampling, never fewer particles while there are several (table
 ///   4)

@@ -22,7 +22,7 @@ struct PoseSearchQuery {
   double separation_m = 1.0;     ///< poses nearer than this ...
   double separation_rad = 0.35;  ///< ... and turned by less than this are not distinct
   double margin = 1e9;           ///< poses whose log-likelihood is this far below the best are not looked for
-  std::int64_t budget = 200'000'000;     ///< evaluated end points
+  std::int64_t budget = 200'000'000;     ///< end points looked up; in sixteen boxes side by side: once
   std::optional<MapRegion> region = {};  ///< where the robot may be; nullopt: wherever the map is free
 };
 
@@ -45,7 +45,7 @@ struct PoseSearchResult {
 /// The lattice holds the centres of all free cells and headings so near to each other that nine of ten end
 /// points move by less than a cell between two of them. A pose scores as in the likelihood field (Thrun et
 /// al., Probabilistic Robotics, table 6.3): the sum over the end points of log(z_hit exp(-d^2 / (2
-/// sigma_hit^2)) + z_rand). A box of 2^h x 2^h cells and 2^h headings cannot score better than the sum over
+/// sigma_hit^2)) + z_rand). A box of 4^h x 4^h cells and 4^h headings cannot score better than the sum over
 /// the end points of the best value in the window of cells that the point can reach; the box of the best
 /// bound is divided next (Land & Doig 1960; on likelihood grids: Hess et al., ICRA 2016). The first undivided
 /// pose is therefore the best of all.
