@@ -29,16 +29,41 @@ void check_free(const World& world, const Point2& point, const char* key) {
                            "move the point, or make robot.radius_m smaller");
 }
 
-std::vector<Point2> planned_way(const World& world, const Point2& from, const std::vector<Point2>& points) {
-  std::vector<Point2> way;
+void check_reachable(const World& world, const Point2& from, const std::vector<Point2>& points) {
   Point2 at = from;
   for (const Point2& next : points) {
     check_free(world, next, kPointsKey);
-    const auto route = world.planner.route(at, next);
-    if (!route) {
+    if (!world.planner.joins(at, next)) {
       throw ConfigurationError(kPointsKey, "there is no way from " + text_of(at) + " to " + text_of(next),
                                "move the point, open a wall, or make robot.radius_m smaller");
     }
+    at = next;
+  }
+}
+
+// A robot drives at most this far; it leaves out a little of the way at every corner.
+bool is_out_of_reach(const World& world, const Point2& from, const std::vector<Point2>& way,
+                     Duration duration) {
+  if (duration == Duration::zero()) return false;
+  constexpr double kLeftOut_m = 4.0 * kReached_m;
+  double length = 0.0;
+  Point2 at = from;
+  for (const Point2& corner : way) {
+    length += std::max(0.0, std::hypot(corner.x - at.x, corner.y - at.y) - kLeftOut_m);
+    at = corner;
+  }
+  return length > world.options.robot.speed_mps * to_seconds(duration);
+}
+
+// Planned is as much of the way as the robot can drive.
+std::vector<Point2> planned_way(const World& world, const Point2& from, const std::vector<Point2>& points,
+                                Duration duration) {
+  check_reachable(world, from, points);
+  std::vector<Point2> way;
+  Point2 at = from;
+  for (const Point2& next : points) {
+    if (is_out_of_reach(world, from, way, duration)) break;
+    const auto route = world.planner.route(at, next);
     way.insert(way.end(), route->begin(), route->end());
     at = next;
   }
@@ -69,7 +94,7 @@ std::vector<Point2> random_points(const World& world, Duration duration, std::ui
     const double u = simulation_random(seed, SimulationUse::kMission, step).uniform(0);
     const Point2& point =
         free[std::min(free.size() - 1, static_cast<std::size_t>(u * static_cast<double>(free.size())))];
-    if (!world.planner.route(at, point)) continue;
+    if (!world.planner.joins(at, point)) continue;
     points.push_back(point);
     at = point;
   }
@@ -98,7 +123,7 @@ std::vector<Point2> coverage_points(const World& world) {
     if (!forward) std::reverse(ends.begin(), ends.end());
     forward = !forward;
     for (const Point2& p : ends) {
-      if (world.planner.route({world.start.x, world.start.y}, p)) points.push_back(p);
+      if (world.planner.joins({world.start.x, world.start.y}, p)) points.push_back(p);
     }
   }
   return points;
@@ -150,8 +175,8 @@ Trajectory drive(const World& world, const Pose2& start, const std::vector<Point
 std::vector<Point2> way_from(const World& world, const Point2& from, const std::vector<Point2>& points,
                              bool is_polyline, Duration duration) {
   std::vector<Point2> way =
-      is_polyline ? straight_way(world, from, points) : planned_way(world, from, points);
-  if (duration == Duration::zero()) return way;
+      is_polyline ? straight_way(world, from, points) : planned_way(world, from, points, duration);
+  if (duration == Duration::zero() || is_out_of_reach(world, from, way, duration)) return way;
   if (const auto back = world.planner.route(points.back(), from))
     way.insert(way.end(), back->begin(), back->end());
   return way;

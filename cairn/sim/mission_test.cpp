@@ -50,6 +50,23 @@ TEST(Mission, ALongDriveGoesRoundAndRound) {
   for (const StampedPose& s : truth) EXPECT_FALSE(s.pose.x < 5.9 && std::abs(s.pose.y - 3.0) < 0.2);
 }
 
+// Only as much of the way is planned as can be driven: that must not show.
+TEST(Mission, AShortDriveIsTheBeginningOfALongOne) {
+  for (const char* mission : {"waypoints", "random", "coverage"}) {
+    const auto drive = [mission](double seconds) {
+      return driven([mission, seconds](WorldOptions& o) {
+               o.robot.mission = mission;
+               o.robot.points = "7,1 1,5 7,5 1,1 4,5";
+               o.robot.duration_s = seconds;
+             })
+          .truth;
+    };
+    const Trajectory few = drive(13.0), many = drive(120.0);
+    ASSERT_LT(few.size(), many.size());
+    for (std::size_t i = 0; i < few.size(); ++i) ASSERT_EQ(few[i].pose, many[i].pose) << mission << " " << i;
+  }
+}
+
 TEST(Mission, ThroughWallsIsRefused) {
   EXPECT_EQ(refusal([](WorldOptions& o) { o.robot.points = "0,5"; }), "robot.points") << "in a wall";
   EXPECT_EQ(refusal([](WorldOptions& o) { o.robot.points = "1,50"; }), "robot.points") << "outside";

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <queue>
 
 namespace cairn {
@@ -35,6 +36,45 @@ RoutePlanner::RoutePlanner(const OccupancyGrid& grid, double clearance_m)
       free_points_.push_back(geometry_.center(column, row));
     }
   }
+  label_parts();
+}
+
+template <class Visit>
+void RoutePlanner::for_each_neighbour(std::size_t cell, const Visit& visit) const {
+  const auto width = static_cast<std::size_t>(geometry_.width);
+  const int column = static_cast<int>(cell % width), row = static_cast<int>(cell / width);
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      if ((dx == 0 && dy == 0) || !is_open(column + dx, row + dy)) continue;
+      visit(geometry_.index(column + dx, row + dy), dx != 0 && dy != 0);
+    }
+  }
+}
+
+// Flood fill: what can be reached from one another gets one number.
+void RoutePlanner::label_parts() {
+  part_.assign(open_.size(), 0);
+  std::uint32_t parts = 0;
+  std::vector<std::size_t> to_visit;
+  for (std::size_t first = 0; first < open_.size(); ++first) {
+    if (!open_[first] || part_[first] != 0) continue;
+    part_[first] = ++parts;
+    to_visit.push_back(first);
+    while (!to_visit.empty()) {
+      const std::size_t cell = to_visit.back();
+      to_visit.pop_back();
+      for_each_neighbour(cell, [&](std::size_t next, bool) {
+        if (part_[next] != 0) return;
+        part_[next] = parts;
+        to_visit.push_back(next);
+      });
+    }
+  }
+}
+
+bool RoutePlanner::joins(const Point2& a, const Point2& b) const {
+  const auto start = cell_of(a), goal = cell_of(b);
+  return start && goal && part_[*start] == part_[*goal];
 }
 
 bool RoutePlanner::is_open(int column, int row) const {
@@ -61,8 +101,8 @@ bool RoutePlanner::sees(const Point2& a, const Point2& b) const {
 }
 
 std::optional<std::vector<Point2>> RoutePlanner::route(const Point2& from, const Point2& to) const {
+  if (!joins(from, to)) return std::nullopt;
   const auto start = cell_of(from), goal = cell_of(to);
-  if (!start || !goal) return std::nullopt;
   if (sees(from, to)) return std::vector<Point2>{to};
   const auto width = static_cast<std::size_t>(geometry_.width);
   const auto guess = [&](std::size_t cell) {
@@ -80,20 +120,14 @@ std::optional<std::vector<Point2>> RoutePlanner::route(const Point2& from, const
     const auto [estimate, cell] = queue.top();
     queue.pop();
     if (estimate > cost[cell] + guess(cell)) continue;  // reached on a shorter way since
-    const int column = static_cast<int>(cell % width), row = static_cast<int>(cell / width);
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        if ((dx == 0 && dy == 0) || !is_open(column + dx, row + dy)) continue;
-        const std::size_t next = geometry_.index(column + dx, row + dy);
-        const double reached = cost[cell] + std::hypot(dx, dy);
-        if (reached >= cost[next]) continue;
-        cost[next] = reached;
-        came_from[next] = cell;
-        queue.push({reached + guess(next), next});
-      }
-    }
+    for_each_neighbour(cell, [&, from = cell](std::size_t next, bool diagonal) {
+      const double reached = cost[from] + (diagonal ? std::numbers::sqrt2 : 1.0);
+      if (reached >= cost[next]) return;
+      cost[next] = reached;
+      came_from[next] = from;
+      queue.push({reached + guess(next), next});
+    });
   }
-  if (queue.empty()) return std::nullopt;
   std::vector<Point2> way = trace(*goal, came_from);
   way.back() = to;
   return cut_corners(from, std::move(way));

@@ -5,6 +5,7 @@
 #include "cairn/maps/occupancy_grid.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -23,6 +24,9 @@ class RoutePlanner {
   /// True if it may drive straight from a to b.
   bool sees(const Point2& a, const Point2& b) const;
 
+  /// True if there is a way from a to b; costs next to nothing.
+  bool joins(const Point2& a, const Point2& b) const;
+
   /// Corners of the way without `from`, ending with `to`; nullopt if there is none.
   std::optional<std::vector<Point2>> route(const Point2& from, const Point2& to) const;
 
@@ -34,11 +38,16 @@ class RoutePlanner {
  private:
   std::optional<std::size_t> cell_of(const Point2& point) const;
   bool is_open(int column, int row) const;
+  template <class Visit>
+  void for_each_neighbour(std::size_t cell, const Visit& visit) const;
+  void label_parts();
   std::vector<Point2> trace(std::size_t goal, const std::vector<std::size_t>& from) const;
   std::vector<Point2> cut_corners(const Point2& from, std::vector<Point2> way) const;
 
   GridGeometry geometry_;
   std::vector<bool> open_;
+  std::vector<std::uint32_t>
+      part_;  // number of the connected part that an open cell belongs to, from 1; else 0
   std::vector<Point2> free_points_;
 };
 

@@ -65,5 +65,15 @@ TEST(RoutePlanner, NoWayIsToldAsSuch) {
   EXPECT_FALSE(world.planner.route({1.0, 1.0}, {0.0, 1.0}));
 }
 
+TEST(RoutePlanner, JoinsWhatAWayLeadsBetween) {
+  WorldOptions options = test::small_world_options();
+  options.walls.push_back({"divider", "0,3 8,3", false, "opaque", true});
+  const World open = divided_room(), closed = make_world(options);
+  EXPECT_TRUE(open.planner.joins({1.0, 1.0}, {1.0, 5.0}));
+  EXPECT_FALSE(closed.planner.joins({1.0, 1.0}, {1.0, 5.0}));
+  EXPECT_TRUE(closed.planner.joins({1.0, 1.0}, {5.0, 2.0}));
+  EXPECT_FALSE(closed.planner.joins({1.0, 1.0}, {0.0, 1.0})) << "in the wall";
+}
+
 }  // namespace
 }  // namespace cairn
