@@ -110,18 +110,18 @@ struct MapFigures {
 
 std::string as_json(const MapFigures& f) {
   const Pose2& T = f.geometry.T_map_grid;
-  const Json json = {{"width_cells", f.geometry.width},
-                     {"height_cells", f.geometry.height},
-                     {"resolution_m", f.geometry.resolution_m},
-                     {"width_m", f.width_m()},
-                     {"height_m", f.height_m()},
-                     {"origin", {{"x_m", T.x}, {"y_m", T.y}, {"yaw_rad", T.theta}}},
-                     {"free_share", f.share(f.free)},
-                     {"occupied_share", f.share(f.occupied)},
-                     {"unknown_share", f.share(f.unknown)},
-                     {"free_area_m2", f.free_area_m2()},
-                     {"checksum", f.sum}};
-  return json.dump(2) + "\n";
+  const Json all = {{"width_cells", f.geometry.width},
+                    {"height_cells", f.geometry.height},
+                    {"resolution_m", f.geometry.resolution_m},
+                    {"width_m", f.width_m()},
+                    {"height_m", f.height_m()},
+                    {"origin", {{"x_m", T.x}, {"y_m", T.y}, {"yaw_rad", T.theta}}},
+                    {"free_share", f.share(f.free)},
+                    {"occupied_share", f.share(f.occupied)},
+                    {"unknown_share", f.share(f.unknown)},
+                    {"free_area_m2", f.free_area_m2()},
+                    {"checksum", f.sum}};
+  return all.dump(2) + "\n";
 }
 
 std::string as_text(const MapFigures& f) {

@@ -13,6 +13,8 @@
 namespace cairn {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 std::vector<double> exponents() {
   std::vector<double> values;
   for (int i = 0; i < 5003; ++i) values.push_back(-708.0 + 0.2832 * i);
@@ -35,7 +37,6 @@ TEST(ExpAll, EqualsTheLibraryOnEveryPath) {
 }
 
 TEST(ExpAll, BeyondItsRange) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   std::vector<double> values = {-708.1, -1e308, -kInfinity, 1e3, kInfinity, 0.0};
   exp_all(values, 0.0, values);  // in place
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(values[i], 0.0);

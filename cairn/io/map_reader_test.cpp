@@ -92,14 +92,14 @@ TEST_F(ReadMap, WritingWhereOneCannotIsAnError) {
 }
 
 TEST_F(ReadMap, ReadsTheRealMaps) {
-  struct Expected {
+  struct RealMap {
     const char* file;
     double resolution_m;
   };
   for (const auto& [file, resolution_m] :
-       {Expected{"jarvis_nav350/maps/derived_from_circular_run.yaml", 0.05},
-        Expected{"radish_derived/maps/intel.yaml", 0.1}, Expected{"mrpt_uwb_laser/map.yaml", 0.04},
-        Expected{"olin_mac/mac_1st_floor_final.yaml", 0.03}, Expected{"wean/wean.dat.gz", 0.1}}) {
+       {RealMap{"jarvis_nav350/maps/derived_from_circular_run.yaml", 0.05},
+        RealMap{"radish_derived/maps/intel.yaml", 0.1}, RealMap{"mrpt_uwb_laser/map.yaml", 0.04},
+        RealMap{"olin_mac/mac_1st_floor_final.yaml", 0.03}, RealMap{"wean/wean.dat.gz", 0.1}}) {
     CAIRN_SKIP_WITHOUT(file);
     const auto map = read_map(test::data_file(file));
     EXPECT_NEAR(map->geometry().resolution_m, resolution_m, 1e-12) << file;

@@ -173,10 +173,10 @@ std::uint32_t acknowledged_before_kill(const fs::path& file, std::uint32_t batch
   close(ends[1]);
   std::uint32_t acknowledged = 0;
   for (int i = 0; i < n; ++i) {
-    if (read(ends[0], &acknowledged, sizeof acknowledged) != sizeof acknowledged) std::abort();
+    if (::read(ends[0], &acknowledged, sizeof acknowledged) != sizeof acknowledged) std::abort();
   }
   kill(child, SIGKILL);
-  while (read(ends[0], &acknowledged, sizeof acknowledged) == sizeof acknowledged) {
+  while (::read(ends[0], &acknowledged, sizeof acknowledged) == sizeof acknowledged) {
   }
   close(ends[0]);
   int status = 0;

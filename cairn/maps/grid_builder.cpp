@@ -23,8 +23,8 @@ Point2 shortened(const Point2& from, const Point2& to, double length) {
 }
 
 /// Steps from cell to cell along one axis of a beam.
-struct Axis {
-  Axis(double from, double to)
+struct BeamAxis {
+  BeamAxis(double from, double to)
       : cell(floor_to_int(from)),
         steps_left(std::abs(floor_to_int(to) - cell)),
         direction(to < from ? -1 : 1) {
@@ -150,7 +150,7 @@ void GridBuilder::count_misses(const Point2& sensor, const Point2& end) {
                                   options_.max_range_m / options_.resolution_m);
   if (cleared <= 0.0) return;
   const Point2 stop = shortened(sensor, end, cleared);
-  Axis x(sensor.x, stop.x), y(sensor.y, stop.y);
+  BeamAxis x(sensor.x, stop.x), y(sensor.y, stop.y);
   count_miss({x.cell, y.cell});
   while (x.steps_left + y.steps_left > 0) {
     (x.next < y.next ? x : y).step();

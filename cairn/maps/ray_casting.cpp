@@ -32,8 +32,8 @@ inline void clip(double from, double direction, double low, double high, double&
 }
 
 // One axis of the walk through the cells.
-struct Axis {
-  Axis(double from, double direction, double origin, double cell_m, int count, double enter) {
+struct ExactAxis {
+  ExactAxis(double from, double direction, double origin, double cell_m, int count, double enter) {
     const double at = (from + enter * direction - origin) / cell_m;
     index = std::clamp(static_cast<int>(at), 0, count - 1);
     step = direction > 0.0 ? 1 : -1;
@@ -56,11 +56,11 @@ RayHit cast_ray(const WallGrid& grid, const Point2& o, const Point2& u, double m
   clip(o.x, u.x, corner.x, corner.x + grid.columns() * grid.cell_m(), enter, leave);
   clip(o.y, u.y, corner.y, corner.y + grid.rows() * grid.cell_m(), enter, leave);
   if (!(enter <= leave) || !std::isfinite(u.x + u.y + enter)) return {};
-  Axis x(o.x, u.x, corner.x, grid.cell_m(), grid.columns(), enter);
-  Axis y(o.y, u.y, corner.y, grid.cell_m(), grid.rows(), enter);
+  ExactAxis x(o.x, u.x, corner.x, grid.cell_m(), grid.columns(), enter);
+  ExactAxis y(o.y, u.y, corner.y, grid.cell_m(), grid.rows(), enter);
   for (;;) {
     for (const WallInCell& w : grid.cell(x.index, y.index)) meet(o, u, w.a, w.b, w.wall, best);
-    Axis& axis = x.next < y.next ? x : y;
+    ExactAxis& axis = x.next < y.next ? x : y;
     if (best.range_m <= axis.next) break;
     axis.index += axis.step;
     if (axis.index == axis.end) break;

@@ -7,6 +7,8 @@
 namespace cairn {
 namespace {
 
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
 TEST(LaserScan, ValidRangesLieInTheHalfOpenInterval) {
   LaserScan scan;
   scan.range_min_m = 0.5;
@@ -21,7 +23,6 @@ TEST(LaserScan, WhatIsNoRangeIsNotValidWhateverTheLimits) {
   scan.range_min_m = -1.0;
   scan.range_max_m = std::numeric_limits<double>::infinity();
   EXPECT_TRUE(scan.is_valid_range(1e-3f));
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
   for (const float range : {0.0f, -0.5f, kInfinity, -kInfinity, std::numeric_limits<float>::quiet_NaN()}) {
     EXPECT_FALSE(scan.is_valid_range(range)) << range;
   }
