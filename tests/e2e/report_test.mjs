@@ -45,6 +45,7 @@ function makeReport(kind) {
 async function open(browser, kind, options = {}) {
   const url = makeReport(kind);
   const page = await browser.newPage({ viewport: { width: 1400, height: 1000 }, ...options });
+  page.setDefaultTimeout(90_000);  // busy machines are slow, not wrong
   page.complaints = [];
   page.on('console', (message) => { if (['error', 'warning'].includes(message.type())) page.complaints.push(message.text()); });
   page.on('pageerror', (error) => page.complaints.push(String(error)));
