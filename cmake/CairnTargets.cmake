@@ -21,7 +21,8 @@ function(cairn_compile_options target)
   set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_EXTENSIONS OFF)
 endfunction()
 
-# Joins the target's sources, as far as cmake/unity_groups.py finds them fit, if CAIRN_UNITY is on.
+# Joins the target's sources, as far as cmake/unity_groups.py finds them fit, if CAIRN_UNITY is on. A local name may
+# then hide one of another file: nothing to warn of.
 function(cairn_join_sources target)
   if(NOT CAIRN_UNITY)
     return()
@@ -37,6 +38,7 @@ function(cairn_join_sources target)
     set_source_files_properties(${CMAKE_MATCH_2} PROPERTIES UNITY_GROUP ${CMAKE_MATCH_1})
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  target_compile_options(${target} PRIVATE -Wno-shadow)
 endfunction()
 
 # cairn_add_test(NAME [LABEL label] SOURCES... LIBRARIES... [ENVIRONMENT VARIABLE=value])
