@@ -27,25 +27,41 @@ struct WordsOfItems {
 
 #if HWY_TARGET == HWY_SCALAR
 
-// One item.
-HWY_INLINE WordsOfItems philox(const PhiloxCounter& first, const PhiloxKey& key, std::uint32_t item) {
-  const auto words = philox4x32_10({first[0] + item, first[1], first[2], first[3]}, key);
-  const Words d;
-  return {hn::Set(d, words[0]), hn::Set(d, words[1]), hn::Set(d, words[2]), hn::Set(d, words[3])};
-}
+// One item at a time.
+struct Blocks {
+  PhiloxCounter first;
+  PhiloxKey key;
+
+  WordsOfItems of_item(std::size_t item) const {
+    const PhiloxCounter block = {first[0] + static_cast<std::uint32_t>(item), first[1], first[2], first[3]};
+    const auto words = philox4x32_10(block, key);
+    const Words d;
+    return {hn::Set(d, words[0]), hn::Set(d, words[1]), hn::Set(d, words[2]), hn::Set(d, words[3])};
+  }
+};
 
 #else
 
 // One item per lane.
-HWY_INLINE WordsOfItems philox(const PhiloxCounter& first, const PhiloxKeys& keys, std::uint32_t item) {
-  const Words d32;
-  const PhiloxPair blocks(first, keys, item, hn::Iota(PhiloxLongs(), 0));
-  const auto join = [&](PhiloxState::Q l, PhiloxState::Q h) {
-    return hn::ConcatEven(d32, hn::BitCast(d32, h), hn::BitCast(d32, l));
-  };
-  const PhiloxState &l = blocks.low, &h = blocks.high;
-  return {join(l.c0, h.c0), join(l.c1, h.c1), join(l.c2, h.c2), join(l.c3, h.c3)};
-}
+struct Blocks {
+  PhiloxBlocks<10> blocks;
+
+  HWY_INLINE Blocks(const PhiloxCounter& first, const PhiloxKey& key) : blocks(first, key) {}
+
+  HWY_INLINE WordsOfItems of_item(std::size_t item) const {
+    const Words d32;
+    PhiloxState low = blocks.three_rounds(item), high = blocks.three_rounds(item + hn::Lanes(PhiloxLongs()));
+    blocks.middle_rounds(low, high);
+    const auto l = blocks.last_round(low), h = blocks.last_round(high);
+    const auto even = [&](auto a, auto b) {
+      return hn::ConcatEven(d32, hn::BitCast(d32, b), hn::BitCast(d32, a));
+    };
+    const auto odd = [&](auto a, auto b) {
+      return hn::ConcatOdd(d32, hn::BitCast(d32, b), hn::BitCast(d32, a));
+    };
+    return {odd(l.w10, h.w10), even(l.w10, h.w10), odd(l.w32, h.w32), even(l.w32, h.w32)};
+  }
+};
 
 #endif
 
@@ -108,10 +124,10 @@ HWY_INLINE void store_normal_pair(W first, W second, float* a, float* b) {
 // of operations side by side.
 void fill_normals(const PhiloxCounter& first, const PhiloxKey& key, std::size_t count, NormalBatch& batch) {
   const std::size_t lanes = hn::Lanes(Floats());
-  const PhiloxKeys keys(key);
-  WordsOfItems words = philox(first, keys, 0);
+  const Blocks blocks{first, key};
+  WordsOfItems words = blocks.of_item(0);
   for (std::size_t i = 0; i < count; i += lanes) {
-    const WordsOfItems next = philox(first, keys, static_cast<std::uint32_t>(i + lanes));
+    const WordsOfItems next = blocks.of_item(i + lanes);
     store_normal_pair(words.w0, words.w1, &batch.number[0][i], &batch.number[1][i]);
     store_normal_pair(words.w2, words.w3, &batch.number[2][i], &batch.number[3][i]);
     words = next;

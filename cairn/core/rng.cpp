@@ -1,6 +1,7 @@
 #include "cairn/core/rng.hpp"
 
 #include "cairn/core/angle.hpp"
+#include "cairn/core/normal3.hpp"
 
 #include <cmath>
 
@@ -24,20 +25,19 @@ NormalPair box_muller(double u, double v) {
   return {radius * std::cos(kTwoPi * v), radius * std::sin(kTwoPi * v)};
 }
 
-// The radius from bits 10 to 29, the place within a quadrant from bits 0 to 9, the signs from bits 31 and 30.
-NormalPair box_muller(std::uint32_t word) {
-  const double radius = std::sqrt(-2.0 * std::log(((word >> 10 & 0xfffffu) + 0.5) * 0x1p-20));
-  const double angle = ((word & 0x3ffu) + 0.5) / 1024.0 * (kPi / 2.0);
-  const double first = radius * std::cos(angle), second = radius * std::sin(angle);
-  return {(word & 0x80000000u) != 0 ? -first : first, (word & 0x40000000u) != 0 ? -second : second};
-}
-
 }  // namespace
 
 PhiloxCounter philox4x32_10(PhiloxCounter counter, PhiloxKey key) {
   const r123::Philox4x32::ctr_type c = {{counter[0], counter[1], counter[2], counter[3]}};
   const r123::Philox4x32::key_type k = {{key[0], key[1]}};
   const auto words = r123::Philox4x32()(c, k);
+  return {words[0], words[1], words[2], words[3]};
+}
+
+PhiloxCounter philox4x32_7(PhiloxCounter counter, PhiloxKey key) {
+  const r123::Philox4x32_R<7>::ctr_type c = {{counter[0], counter[1], counter[2], counter[3]}};
+  const r123::Philox4x32_R<7>::key_type k = {{key[0], key[1]}};
+  const auto words = r123::Philox4x32_R<7>()(c, k);
   return {words[0], words[1], words[2], words[3]};
 }
 
@@ -66,14 +66,23 @@ std::array<double, 4> RandomStream::normal4(std::uint32_t item, std::uint16_t dr
 }
 
 std::array<double, 3> RandomStream::normal3(std::uint32_t item, std::uint16_t draw) const {
-  constexpr std::uint32_t kHalf = kNormal3Group / 2;
-  PhiloxCounter pairs = counter(item, draw), thirds = counter(item, static_cast<std::uint16_t>(draw + 1));
-  const std::uint32_t i = pairs[0], group = i / kNormal3Group, in_half = i % kHalf;
-  pairs[0] = i / 4;
-  thirds[0] = group * (kHalf / 4) + in_half / 4;
-  const NormalPair pair = box_muller(philox4x32_10(pairs, key())[i % 4]);
-  const NormalPair third = box_muller(philox4x32_10(thirds, key())[in_half % 4]);
-  return {pair.first, pair.second, i % kNormal3Group < kHalf ? third.first : third.second};
+  PhiloxCounter first = counter(item, draw);
+  const std::uint32_t in_group = first[0] % Normal3::kGroup;
+  first[0] = first[0] / Normal3::kGroup * Normal3::kBlocks;
+  const auto byte = [&](std::size_t k) {
+    const Normal3::Place place = Normal3::place_of(k);
+    const PhiloxCounter words = philox4x32_7({first[0] + place.block, first[1], first[2], first[3]}, key());
+    return static_cast<std::uint8_t>(words[place.word] >> place.shift);
+  };
+  const std::size_t column = Normal3::column_of(in_group);
+  std::array<double, 3> numbers;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t row = 3 * k * Normal3::kGroup + column;
+    const int whole = Normal3::from_bytes(byte(row), byte(row + Normal3::kGroup),
+                                          byte(row + std::size_t{2} * Normal3::kGroup));
+    numbers[k] = whole * Normal3::kUnit;
+  }
+  return numbers;
 }
 
 }  // namespace cairn

@@ -11,6 +11,9 @@ using PhiloxCounter = std::array<std::uint32_t, 4>;
 using PhiloxKey = std::array<std::uint32_t, 2>;
 PhiloxCounter philox4x32_10(PhiloxCounter counter, PhiloxKey key);
 
+/// Seven rounds: the fewest that pass all of BigCrush (the same paper, table 2).
+PhiloxCounter philox4x32_7(PhiloxCounter counter, PhiloxKey key);
+
 /// What a random number is for. Numbers of different purposes are independent; the values are part of the
 /// recorded results, so entries are only ever appended.
 enum class RandomPurpose : std::uint16_t {
@@ -45,16 +48,10 @@ class RandomStream {
   /// Four independent standard normal numbers (Box-Muller; at most 6.8 standard deviations).
   std::array<double, 4> normal4(std::uint32_t item, std::uint16_t draw = 0) const;
 
-  /// Three independent standard normal numbers, for less than half the price of normal4: from 48 random bits
-  /// per item. Box-Muller with 2^20 radii and 2^12 directions; at most 5.4 standard deviations, mean and
-  /// variance within 1e-6 of 0 and 1.
-  ///
-  /// Items share blocks. The first two numbers of item i come from word i % 4 of block i / 4 of `draw`. The
-  /// third ones of a group of 32 items come from the 16 words of four blocks of `draw + 1`: a word gives the
-  /// number of one item of the first half and of one of the second half. Hence a stream gives either these or
-  /// the numbers above for a draw, not both.
+  /// Three independent standard normal numbers for a fraction of the price of normal4, from 24 random bits
+  /// each (see Normal3). Blocks are shared by the items of a group: a stream gives either these or the
+  /// numbers above for a draw, not both.
   std::array<double, 3> normal3(std::uint32_t item, std::uint16_t draw = 0) const;
-  static constexpr std::uint32_t kNormal3Group = 32;
 
   /// Where the words of an item come from: those of the next item have the next counter[0] (modulo 2^32).
   PhiloxCounter counter(std::uint32_t item, std::uint16_t draw = 0) const;

@@ -27,6 +27,15 @@ TEST(Philox, KnownAnswers) {
             (PhiloxCounter{0xd16cfe09u, 0x94fdccebu, 0x5001e420u, 0x24126ea1u}));
 }
 
+TEST(Philox, KnownAnswersOfSevenRounds) {
+  EXPECT_EQ(philox4x32_7({0, 0, 0, 0}, {0, 0}),
+            (PhiloxCounter{0x5f6fb709u, 0x0d893f64u, 0x4f121f81u, 0x4f730a48u}));
+  EXPECT_EQ(philox4x32_7({kOnes, kOnes, kOnes, kOnes}, {kOnes, kOnes}),
+            (PhiloxCounter{0x5207ddc2u, 0x45165e59u, 0x4d8ee751u, 0x8c52f662u}));
+  EXPECT_EQ(philox4x32_7({0x243f6a88u, 0x85a308d3u, 0x13198a2eu, 0x03707344u}, {0xa4093822u, 0x299f31d0u}),
+            (PhiloxCounter{0x4dfccabau, 0x190a87f0u, 0xc47362bau, 0xb6b5242au}));
+}
+
 // The layout of the counter is part of every recorded result.
 TEST(RandomStream, IsPhiloxOfItemDrawPurposeStepAndSeed) {
   const RandomStream random(0x1122334455667788u, RandomPurpose::kMotion, 0x99aabbccddeeff00u);

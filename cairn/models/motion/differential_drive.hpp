@@ -33,8 +33,8 @@ class DifferentialDrive final : public MotionModel<Pose2, Pose2> {
                  const RandomStream& random) const override;
 
   /// What a control means for every particle: `propagate` applies it with the numbers of
-  /// RandomStream::normal3 (turn 1, drive, turn 2), or of normal4 where `sigma_min_m` asks for a fourth, in
-  /// single precision.
+  /// RandomStream::normal3 (turn 1, drive, turn 2), or of normal4, in single precision, where `sigma_min_m`
+  /// asks for a fourth.
   NoisyMove noisy_move(const Pose2& T_before_after) const;
 
  private:

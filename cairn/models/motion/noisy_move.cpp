@@ -4,7 +4,9 @@
 #include "cairn/core/errors.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "cairn/models/motion/noisy_move.cpp"
@@ -15,14 +17,35 @@
 #include "cairn/core/simd_math-inl.h"
 // clang-format on
 
-#ifndef CAIRN_MODELS_MOTION_MOVE_NOISE_
-#define CAIRN_MODELS_MOTION_MOVE_NOISE_
+#ifndef CAIRN_MODELS_MOTION_HEADINGS_
+#define CAIRN_MODELS_MOTION_HEADINGS_
 namespace cairn {
 namespace {
-// Normal numbers of a batch; some more behind the last may be read. Null: nothing goes aside.
-struct MoveNoise {
+
+// Cosine and sine of all whole multiples of a turn / kHeadings, one pair after the other.
+constexpr std::size_t kHeadings = 512;
+using HeadingTable = std::array<double, 2 * kHeadings>;
+
+constexpr std::size_t kMostStates = NormalBatch::kCapacity;
+static_assert(Normal3Batch::kCapacity <= kMostStates);
+
+// Headings below are exact to the last digits.
+constexpr double kLargestHeading = 1e5;
+
+// Normal numbers of a batch in units of kUnit; some more behind the last may be read.
+struct FourNumbers {
+  static constexpr double kUnit = 1.0;
+  static constexpr bool kAside = true;
   const float *turn1, *drive, *turn2, *aside;
+  FourNumbers from(std::size_t i) const { return {turn1 + i, drive + i, turn2 + i, aside + i}; }
 };
+struct ThreeNumbers {
+  static constexpr double kUnit = Normal3::kUnit;
+  static constexpr bool kAside = false;
+  const std::int16_t *turn1, *drive, *turn2;
+  ThreeNumbers from(std::size_t i) const { return {turn1 + i, drive + i, turn2 + i}; }
+};
+
 }  // namespace
 }  // namespace cairn
 #endif
@@ -43,48 +66,172 @@ HWY_INLINE D normalized(D angle) {
   return hn::IfThenElse(hn::Lt(wrapped, hn::Set(d, kPi)), hn::Max(wrapped, low), low);
 }
 
-// A vector of states, their doubles one after the other.
-template <bool Aside>
-HWY_INLINE void move_vector(const NoisyMove& m, double* states, const MoveNoise& noise, std::size_t i) {
+// For the rare heading that is too large or not a number.
+HWY_NOINLINE D normalized_exactly(D angles) {
   const Doubles d;
-  const hn::Rebind<float, Doubles> df;
-  const auto noisy = [&](double mean, double sigma, const float* numbers) {
-    const D n = hn::PromoteTo(d, hn::LoadU(df, numbers + i));
-    return hn::Add(hn::Set(d, mean), hn::Mul(hn::Set(d, sigma), n));
-  };
-  D x, y, theta;
-  hn::LoadInterleaved3(d, states, x, y, theta);
-  const D heading = hn::Add(theta, noisy(m.turn1, m.sigma_turn1, noise.turn1));
-  const D along = noisy(m.drive, m.sigma_drive, noise.drive);
-  const auto [s, c] = sine_cosine(d, heading);
-  D new_x = hn::Add(x, hn::Mul(c, along)), new_y = hn::Add(y, hn::Mul(s, along));
-  if constexpr (Aside) {
-    const D across = noisy(m.aside, m.sigma_aside, noise.aside);
-    new_x = hn::Sub(new_x, hn::Mul(s, across));
-    new_y = hn::Add(new_y, hn::Mul(c, across));
+  HWY_ALIGN double each[hn::MaxLanes(Doubles())];
+  hn::Store(angles, d, each);
+  for (double& angle : each) {
+    if (!(std::abs(angle) < kLargestHeading)) angle = normalize_angle(angle);
   }
-  const D new_theta = normalized(hn::Add(heading, noisy(m.turn2, m.sigma_turn2, noise.turn2)));
-  hn::StoreInterleaved3(new_x, new_y, new_theta, d, states);
+  return hn::Load(d, each);
 }
 
-template <bool Aside>
-HWY_INLINE void move_all(const NoisyMove& move, double* states, std::size_t count, const MoveNoise& noise) {
-  constexpr std::size_t kLanes = hn::MaxLanes(Doubles());
-  std::size_t i = 0;
-  for (; i + kLanes <= count; i += kLanes) move_vector<Aside>(move, states + 3 * i, noise, i);
-  if (i == count) return;
-  double rest[3 * kLanes] = {};
-  std::copy_n(states + 3 * i, 3 * (count - i), rest);
-  move_vector<Aside>(move, rest, noise, i);
-  std::copy_n(rest, 3 * (count - i), states + 3 * i);
+// A vector of normal numbers, in their unit.
+HWY_INLINE D numbers_at(const float* numbers) {
+  const Doubles d;
+  return hn::PromoteTo(d, hn::LoadU(hn::Rebind<float, Doubles>(), numbers));
+}
+HWY_INLINE D numbers_at(const std::int16_t* numbers) {
+  const Doubles d;
+  const hn::Rebind<std::int32_t, Doubles> d32;
+  return hn::PromoteTo(d, hn::PromoteTo(d32, hn::LoadU(hn::Rebind<std::int16_t, Doubles>(), numbers)));
 }
 
-void apply_all(const NoisyMove& move, double* states, std::size_t count, const MoveNoise& noise) {
-  if (noise.aside != nullptr) {
-    move_all<true>(move, states, count, noise);
+// A part of the move, for normal numbers in units of `unit`.
+struct NoisyPart {
+  D mean, deviation;
+
+  HWY_INLINE NoisyPart(double center, double sigma, double unit)
+      : mean(hn::Set(Doubles(), center)), deviation(hn::Set(Doubles(), sigma * unit)) {}
+  template <class Number>
+  HWY_INLINE D at(const Number* numbers) const {
+    return hn::Add(mean, hn::Mul(deviation, numbers_at(numbers)));
+  }
+};
+
+// Where the states of a batch look after the first turn: the place in the table of what is closest, and the
+// rest.
+struct Headings {
+  HWY_ALIGN double heading[kMostStates];
+  HWY_ALIGN double rest[kMostStates];
+  HWY_ALIGN std::int64_t place[kMostStates];
+};
+
+template <class Noise>
+HWY_INLINE void turn_first(const NoisyMove& move, const double* states, std::size_t count, const Noise& noise,
+                           Headings& out) {
+  const Doubles d;
+  const hn::RebindToSigned<Doubles> di;
+  const NoisyPart turn1(move.turn1, move.sigma_turn1, Noise::kUnit);
+  const std::int64_t last = kHeadings - 1;
+  const D bias = hn::Set(d, rounding_bias(d));
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    D x, y, theta;
+    hn::LoadInterleaved3(d, states + 3 * i, x, y, theta);
+    const auto small = hn::Lt(hn::Abs(theta), hn::Set(d, kLargestHeading));
+    if (HWY_UNLIKELY(!hn::AllTrue(d, small))) theta = normalized_exactly(theta);
+    const D heading = hn::Add(theta, turn1.at(noise.turn1 + i));
+    const D number = hn::Add(hn::Mul(heading, hn::Set(d, kHeadings / kTwoPi)), bias);
+    const D closest = hn::Mul(hn::Sub(number, bias), hn::Set(d, kTwoPi / kHeadings));
+    const auto wrapped = hn::And(hn::BitCast(di, number), hn::Set(di, last));
+    hn::Store(heading, d, out.heading + i);
+    hn::Store(hn::Sub(heading, closest), d, out.rest + i);
+    hn::Store(hn::Add(wrapped, wrapped), di, out.place + i);
+  }
+}
+
+struct Direction {
+  D cosine, sine;
+};
+
+#if HWY_TARGET == HWY_SCALAR
+HWY_INLINE Direction looked_up(const double* table, const std::int64_t* place) {
+  const Doubles d;
+  return {hn::Set(d, table[*place]), hn::Set(d, table[*place + 1])};
+}
+#else
+// The pairs at every other place, from this one on.
+template <std::size_t Lanes>
+HWY_INLINE auto pairs(const double* table, const std::int64_t* place) {
+  const hn::CappedTag<double, Lanes> d;
+  if constexpr (Lanes == 2) {
+    return hn::Load(d, table + *place);
   } else {
-    move_all<false>(move, states, count, noise);
+    return hn::Combine(d, pairs<Lanes / 2>(table, place + Lanes / 2), pairs<Lanes / 2>(table, place));
   }
+}
+
+HWY_INLINE Direction looked_up(const double* table, const std::int64_t* place) {
+  const Doubles d;
+  const D even = pairs<hn::MaxLanes(d)>(table, place), odd = pairs<hn::MaxLanes(d)>(table, place + 1);
+  return {hn::InterleaveLower(d, even, odd), hn::InterleaveUpper(d, even, odd)};
+}
+#endif
+
+// Steps of a length towards a heading: first towards the closest one of the table, then turned by what is
+// left, at most 0.0062: the polynomials of Taylor leave out 1e-16.
+struct Towards {
+  Direction table;
+  D rest, cosine, sine_ratio;
+
+  HWY_INLINE Towards(const Direction& closest, D left) : table(closest), rest(left) {
+    const Doubles d;
+    const D z = hn::Mul(rest, rest);
+    cosine = horner(d, z, hn::Set(d, 1.0 / 24.0), -0.5, 1.0);
+    sine_ratio = horner(d, z, hn::Set(d, 1.0 / 120.0), -1.0 / 6.0, 1.0);
+  }
+
+  HWY_INLINE Direction step(D length) const {
+    const D ahead = hn::Mul(length, cosine), aside = hn::Mul(hn::Mul(length, rest), sine_ratio);
+    return {hn::Sub(hn::Mul(table.cosine, ahead), hn::Mul(table.sine, aside)),
+            hn::Add(hn::Mul(table.sine, ahead), hn::Mul(table.cosine, aside))};
+  }
+};
+
+template <class Noise>
+HWY_INLINE void drive_and_turn(const NoisyMove& move, double* states, std::size_t count, const Noise& noise,
+                               const Headings& from, const double* table) {
+  const Doubles d;
+  const NoisyPart drive(move.drive, move.sigma_drive, Noise::kUnit);
+  const NoisyPart turn2(move.turn2, move.sigma_turn2, Noise::kUnit);
+  const NoisyPart aside(move.aside, move.sigma_aside, Noise::kUnit);
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const D heading = hn::Load(d, from.heading + i);
+    const Towards towards(looked_up(table, from.place + i), hn::Load(d, from.rest + i));
+    D x, y, theta;
+    hn::LoadInterleaved3(d, states + 3 * i, x, y, theta);
+    const auto [dx, dy] = towards.step(drive.at(noise.drive + i));
+    x = hn::Add(x, dx), y = hn::Add(y, dy);
+    if constexpr (Noise::kAside) {
+      const auto [ax, ay] = towards.step(aside.at(noise.aside + i));
+      x = hn::Sub(x, ay), y = hn::Add(y, ax);
+    }
+    theta = normalized(hn::Add(heading, turn2.at(noise.turn2 + i)));
+    hn::StoreInterleaved3(x, y, theta, d, states + 3 * i);
+  }
+}
+
+// A whole number of vectors.
+template <class Noise>
+HWY_INLINE void move_vectors(const NoisyMove& move, double* states, std::size_t count, const Noise& noise,
+                             const double* table) {
+  Headings headings;
+  turn_first(move, states, count, noise, headings);
+  drive_and_turn(move, states, count, noise, headings, table);
+}
+
+template <class Noise>
+HWY_INLINE void move_all(const NoisyMove& move, double* states, std::size_t count, const Noise& noise,
+                         const double* table) {
+  constexpr std::size_t kLanes = hn::MaxLanes(Doubles());
+  const std::size_t left = count % kLanes, whole = count - left;
+  move_vectors(move, states, whole, noise, table);
+  if (left == 0) return;
+  double last[3 * kLanes] = {};
+  std::copy_n(states + 3 * whole, 3 * left, last);
+  move_vectors(move, last, kLanes, noise.from(whole), table);
+  std::copy_n(last, 3 * left, states + 3 * whole);
+}
+
+void apply_four(const NoisyMove& move, double* states, std::size_t count, const FourNumbers& noise,
+                const double* table) {
+  move_all(move, states, count, noise, table);
+}
+
+void apply_three(const NoisyMove& move, double* states, std::size_t count, const ThreeNumbers& noise,
+                 const double* table) {
+  move_all(move, states, count, noise, table);
 }
 
 }  // namespace cairn::HWY_NAMESPACE
@@ -94,10 +241,22 @@ HWY_AFTER_NAMESPACE();
 namespace cairn {
 namespace {
 
-HWY_EXPORT(apply_all);
+HWY_EXPORT(apply_four);
+HWY_EXPORT(apply_three);
 
-// Within, the fast sine and cosine are exact to the last digits.
-constexpr double kLargestHeading = 1e5;
+const double* heading_table() {
+  alignas(64) static const HeadingTable table = [] {
+    HeadingTable made;
+    for (std::size_t k = 0; k < kHeadings; ++k) {
+      // As turn_first has it, to the last digit: what is left is then exact.
+      const double number = static_cast<double>(k) - (k < kHeadings / 2 ? 0.0 : kHeadings);
+      const double heading = number * (kTwoPi / kHeadings);
+      made[2 * k] = std::cos(heading), made[2 * k + 1] = std::sin(heading);
+    }
+    return made;
+  }();
+  return table.data();
+}
 
 }  // namespace
 
@@ -110,27 +269,19 @@ Pose2 NoisyMove::applied(const Pose2& state, double n_turn1, double n_drive, dou
           normalize_angle(heading + (turn2 + sigma_turn2 * n_turn2))};
 }
 
-namespace {
-
-void apply(const NoisyMove& move, std::span<Pose2> states, const MoveNoise& noise) {
-  static_assert(sizeof(Pose2) == 3 * sizeof(double));
-  for (Pose2& state : states) {
-    if (!(std::abs(state.theta) < kLargestHeading)) state.theta = normalize_angle(state.theta);
-  }
-  HWY_DYNAMIC_DISPATCH(apply_all)(move, &states.data()->x, states.size(), noise);
-}
-
-}  // namespace
+static_assert(sizeof(Pose2) == 3 * sizeof(double));
 
 void apply(const NoisyMove& move, std::span<Pose2> states, const NormalBatch& noise) {
   CAIRN_ASSERT(states.size() <= NormalBatch::kCapacity);
   const auto& n = noise.number;
-  apply(move, states, MoveNoise{n[0].data(), n[1].data(), n[2].data(), n[3].data()});
+  const FourNumbers numbers{n[0].data(), n[1].data(), n[2].data(), n[3].data()};
+  HWY_DYNAMIC_DISPATCH(apply_four)(move, &states.data()->x, states.size(), numbers, heading_table());
 }
 
 void apply(const NoisyMove& move, std::span<Pose2> states, const Normal3Batch& noise) {
   CAIRN_ASSERT(states.size() <= Normal3Batch::kCapacity && !move.goes_aside());
-  apply(move, states, MoveNoise{noise.number(0), noise.number(1), noise.number(2), nullptr});
+  const ThreeNumbers numbers{noise.number(0), noise.number(1), noise.number(2)};
+  HWY_DYNAMIC_DISPATCH(apply_three)(move, &states.data()->x, states.size(), numbers, heading_table());
 }
 
 }  // namespace cairn

@@ -122,8 +122,8 @@ TEST(NoisyMoveByThreeNumbers, IsOneByOne) {
   Normal3Batch noise;
   for (std::uint32_t i = 0; i < states.size(); ++i) {
     noise.fill(random, i, 1);
-    const Pose2 expected =
-        straight_on().applied(states[i], noise.number(0)[0], noise.number(1)[0], noise.number(2)[0], 0.0);
+    const auto number = [&](std::size_t k) { return noise.number(k)[0] * Normal3::kUnit; };
+    const Pose2 expected = straight_on().applied(states[i], number(0), number(1), number(2), 0.0);
     EXPECT_NEAR(found[i].x, expected.x, 1e-13);
     EXPECT_NEAR(found[i].y, expected.y, 1e-13);
     EXPECT_NEAR(angle_difference(found[i].theta, expected.theta), 0.0, 1e-13) << i;
