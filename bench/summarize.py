@@ -15,6 +15,7 @@ from collections import defaultdict
 from pathlib import Path
 
 PATHS = ["scalar", "sse4", "avx2", "avx512"]
+BEST = "best"  # what does not choose its instructions runs with the best there are
 
 
 def percentile(values, share):
@@ -53,9 +54,11 @@ def repetitions(results):
 def row_of(name, runs):
     """The row of one of our benchmarks; without ratios where the peer has no counterpart."""
     parts = name.split("/")
-    if parts[0] != "cairn" or len(parts) != 4 or not parts[3].isdigit():
+    if parts[0] != "cairn" or len(parts) < 3:
         return None
-    _, kernel, path, n = parts
+    n = int(parts.pop()) if parts[-1].isdigit() else 1
+    path = parts.pop(2) if len(parts) > 2 and parts[2] in PATHS else BEST
+    kernel = "_".join(parts[1:])
     ours, theirs = runs[name], runs.get(f"mrpt/{kernel}/{n}", {})
     ratios = [theirs[k][0] / ours[k][0] for k in ours if k in theirs]
     items = [per_item for _, per_item in ours.values() if per_item]
@@ -84,7 +87,7 @@ def main():
     print(f"{name}; {' '.join(flags)}\npaths: {paths}\n")
     runs = repetitions(results)
     rows = [row for row in (row_of(name, runs) for name in runs) if row]
-    rows.sort(key=lambda row: (row["kernel"], row["n"], PATHS.index(row["path"])))
+    rows.sort(key=lambda row: (row["kernel"], row["n"], [*PATHS, BEST].index(row["path"])))
     print_rows(rows)
     count = max((len(found) for found in runs.values()), default=0)
     document = {"cpu": name, "flags": flags, "paths": paths, "repetitions": count, "rows": rows}
