@@ -2,6 +2,7 @@
 
 #include "cairn/bayes/injections/injections.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <utility>

@@ -9,8 +9,7 @@ constexpr double kSteps = 255.0;
 constexpr auto kMost = static_cast<std::uint8_t>(kSteps);
 // Windows of a tier, in quarters of its stride: at most a quarter wider than needed up to twice the stride.
 constexpr std::array kQuarters = {4, 5, 6, 7, 8, 10, 12, 16};
-constexpr int kLargest = 128;  // a point that reaches farther costs nothing in a bound
-constexpr int kMargin = kLargest + 1;
+constexpr int kMargin = LeastCostWindows::kLargest + 1;
 
 std::size_t whole(int number) { return static_cast<std::size_t>(number); }
 
@@ -24,7 +23,7 @@ std::vector<int> sizes_of(int tier) {
   std::vector<int> sizes;
   for (const int quarters : kQuarters) {
     const int size = LeastCostWindows::stride(tier) * quarters / 4;
-    if (size <= kLargest) sizes.push_back(size);
+    if (size <= LeastCostWindows::kLargest) sizes.push_back(size);
   }
   return sizes;
 }

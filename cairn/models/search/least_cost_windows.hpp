@@ -31,6 +31,8 @@ struct CellBox {
 class LeastCostWindows {
  public:
   static constexpr int kTiers = 4;
+  /// Cells along the largest windows: a point that reaches farther has no bound.
+  static constexpr int kLargest = 128;
   /// Cells from a box of this tier to the next, and along its side.
   static constexpr int stride(int tier) { return 1 << (2 * tier); }
 

@@ -18,7 +18,6 @@ namespace {
 
 constexpr int kTiers = LeastCostWindows::kTiers;
 constexpr int kLevels = 2 * kTiers - 1;  // of headings: those of boxes, and halves of them
-constexpr int kLargestWindow = 128;      // a point that reaches farther costs nothing in the bound
 constexpr double kFarthest_cells = 16000.0;
 constexpr double kSteeringShare = 0.9;  // share of the points that the headings' step must not move by a cell
 constexpr std::size_t kFirstLook = 4;   // a quarter of the points: a box's first, rough bound
@@ -143,8 +142,6 @@ class AllowedBoxes {
     const Level& l = levels_[static_cast<std::size_t>(level)];
     return column < l.columns && row < l.rows && l.any[l.index(column, row)];
   }
-  int columns(int level) const { return levels_[static_cast<std::size_t>(level)].columns; }
-  int rows(int level) const { return levels_[static_cast<std::size_t>(level)].rows; }
   std::int64_t cells() const { return std::count(levels_[0].any.begin(), levels_[0].any.end(), true); }
 
  private:
@@ -237,7 +234,7 @@ class BranchAndBound {
                  const RotatedPoints& points, const PoseSearchQuery& query)
       : windows_(windows), grid_(grid), allowed_(allowed), points_(points), query_(query), known_(query) {
     for (int tier = 0; tier < kTiers; ++tier) {
-      for (int side = 0; side <= kLargestWindow; ++side)
+      for (int side = 0; side <= LeastCostWindows::kLargest; ++side)
         planes_[static_cast<std::size_t>(tier)].push_back(windows.plane_for(tier, side));
     }
   }
@@ -262,7 +259,8 @@ class BranchAndBound {
     for (std::size_t k = first; k < last; ++k) {
       const RotatedPoints::Reach& r = reaches[k];
       const int side = r.side + more;
-      const auto* plane = side > kLargestWindow ? nullptr : planes[static_cast<std::size_t>(side)];
+      const auto* plane =
+          side > LeastCostWindows::kLargest ? nullptr : planes[static_cast<std::size_t>(side)];
       if (plane == nullptr) continue;  // no bound
       sums.add(plane->block(from.column + r.column, from.row + r.row), plane->row_step());
     }
@@ -398,7 +396,9 @@ class BranchAndBound {
   double log_likelihood_of(double cost) const {
     return -cost - windows_.least() * static_cast<double>(points_.points());
   }
-  double cost_of(double log_likelihood) const { return log_likelihood_of(log_likelihood); }
+  double cost_of(double log_likelihood) const {
+    return -log_likelihood - windows_.least() * static_cast<double>(points_.points());
+  }
 
   Pose2 pose_of(const Leaf& leaf) const {
     const Point2 center = grid_.center(leaf.column, leaf.row);
