@@ -14,8 +14,10 @@ DEFINED = re.compile(
     r"^(?:template\s*<[^>]*>\s*)?(?:\[\[\w+\]\]\s*)?(?:inline\s+|static\s+)*"
     r"(?:(?:struct|class|union|enum class|enum)\s+(\w+)|(?:using|namespace)\s+(\w+)\s*="
     r"|[A-Za-z][\w:<>&*,\s\[\]]*?[\s&*](\w+)\s*\()", re.M)
-CONSTANTS = re.compile(r"^(?:(?:inline |static )*const(?:expr)?\b|enum (?!class))[^;]*;", re.M)
+CONSTANTS = re.compile(r"^(?:inline |static )*const(?:expr)?\b[^;]*;", re.M)
 CONSTANT = re.compile(r"\b(\w+)\s*(?:\[[^\]]*\])?\s*[={]")
+ENUMERATORS = re.compile(r"^enum (?!class)[^{;]*\{([^}]*)\}", re.M)
+ENUMERATOR = re.compile(r"(\w+)\s*(?:=[^,]*)?(?:,|$)")
 USED = re.compile(r"^using ((?:\w+::)*(\w+));", re.M)
 OPENED = re.compile(r"^using namespace (?!std::[\w:]*literals;)", re.M)
 
@@ -27,6 +29,7 @@ def local_names(file, source):
         names |= {name: meaning for meaning, name in USED.findall(block)}
         names |= {name: file for found in DEFINED.finditer(block) for name in found.groups() if name}
         names |= {name: file for some in CONSTANTS.findall(block) for name in CONSTANT.findall(some)}
+        names |= {name: file for some in ENUMERATORS.findall(block) for name in ENUMERATOR.findall(some)}
     return names
 
 

@@ -1,5 +1,6 @@
 #include "cairn/sim/route_planner.hpp"
 
+#include "mini_maps.hpp"
 #include "small_world.hpp"
 
 #include <cmath>
@@ -65,14 +66,20 @@ TEST(RoutePlanner, NoWayIsToldAsSuch) {
   EXPECT_FALSE(world.planner.route({1.0, 1.0}, {0.0, 1.0}));
 }
 
+// The robot could stand in both rooms; the gap between them is too narrow for it.
 TEST(RoutePlanner, JoinsWhatAWayLeadsBetween) {
-  WorldOptions options = test::small_world_options();
-  options.walls.push_back({"divider", "0,3 8,3", false, "opaque", true});
-  const World open = divided_room(), closed = make_world(options);
-  EXPECT_TRUE(open.planner.joins({1.0, 1.0}, {1.0, 5.0}));
-  EXPECT_FALSE(closed.planner.joins({1.0, 1.0}, {1.0, 5.0}));
-  EXPECT_TRUE(closed.planner.joins({1.0, 1.0}, {5.0, 2.0}));
-  EXPECT_FALSE(closed.planner.joins({1.0, 1.0}, {0.0, 1.0})) << "in the wall";
+  std::vector<std::string> lines(40, std::string(20, ' ') + "#" + std::string(19, ' '));
+  for (const std::size_t row : {18u, 19u}) lines[row] = std::string(40, ' ');
+  const RoutePlanner planner(test::draw_grid(lines, 0.1), 0.3);
+  const Point2 left{1.0, 1.0}, right{3.0, 1.0};
+  EXPECT_TRUE(planner.is_free(left) && planner.is_free(right));
+  EXPECT_FALSE(planner.joins(left, right));
+  EXPECT_FALSE(planner.route(left, right));
+  EXPECT_TRUE(planner.joins(left, {0.5, 3.5}));
+  EXPECT_FALSE(planner.joins(left, {2.05, 1.0})) << "in the wall";
+  const RoutePlanner small(test::draw_grid(lines, 0.1), 0.05);
+  EXPECT_TRUE(small.joins(left, right));
+  EXPECT_TRUE(small.route(left, right));
 }
 
 }  // namespace

@@ -31,5 +31,12 @@ TEST(BlockSums, AreThoseOfEachPlace) {
   EXPECT_EQ(sums.sums(), expected);
 }
 
+TEST(BlockSums, TheLargestBytesNeverRunOver) {
+  const std::vector<std::uint8_t> bytes(16, 255);
+  BlockSums sums;
+  for (int i = 0; i < 1000; ++i) sums.add(bytes.data(), 4);
+  for (const std::uint32_t sum : sums.sums()) EXPECT_EQ(sum, 255'000u);
+}
+
 }  // namespace
 }  // namespace cairn

@@ -60,10 +60,11 @@ std::vector<FoundPose> brute_force(const OccupancyGrid& map, const PoseSearch& s
 
 class PoseSearchOracle : public ::testing::TestWithParam<Pose2> {};
 
-TEST_P(PoseSearchOracle, FindsWhatTryingAllPosesFinds) {
+/// In a tiny room, with a model that looks closely or one that looks from afar.
+void expect_what_all_poses_give(const Pose2& T_grid_base, const LikelihoodFieldOptions& model) {
   const OccupancyGrid map = tiny_room({-3.0, 2.0, 0.4});
-  const PoseSearch search(map, {});
-  const Pose2 truth = map.geometry().T_map_grid * GetParam();
+  const PoseSearch search(map, model);
+  const Pose2 truth = map.geometry().T_map_grid * T_grid_base;
   const std::vector<Point2> points = points_from(map, truth, 24);
   const PoseSearchQuery query{.most_poses = 4};
   const PoseSearchResult result = search.find(points, query);
@@ -76,6 +77,15 @@ TEST_P(PoseSearchOracle, FindsWhatTryingAllPosesFinds) {
   }
   EXPECT_NEAR(distance(result.poses[0].T_map_base, truth), 0.0, 0.15);
   EXPECT_NEAR(turn(result.poses[0].T_map_base.theta, truth.theta), 0.0, 0.06);
+}
+
+TEST_P(PoseSearchOracle, FindsWhatTryingAllPosesFinds) { expect_what_all_poses_give(GetParam(), {}); }
+
+// The neighbours of the best pose are better than the second of those that are asked for.
+TEST_P(PoseSearchOracle, NeighboursOfTheBestPoseHideNoOther) {
+  LikelihoodFieldOptions wide;
+  wide.sigma_hit_m = 0.4;
+  expect_what_all_poses_give(GetParam(), wide);
 }
 
 INSTANTIATE_TEST_SUITE_P(Poses, PoseSearchOracle,
