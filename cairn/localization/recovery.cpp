@@ -8,13 +8,13 @@
 namespace cairn {
 namespace {
 
-constexpr double kOfMany = 1.0;  // what the best of many places fits better by chance, nat
-constexpr double kMostPerScan = 3.0;
-constexpr int kDoubtfulScans = 3;           // for which one scan raises doubt
-constexpr double kLeastProbability = 1e-3;  // the monitor is never surer than that
-constexpr double kLargestShare = 0.98;      // of the belief that a rival may get at once
+constexpr int kDoubtfulScans = 3;       // for which one scan raises doubt
+constexpr double kLargestShare = 0.98;  // of the belief that a rival may get at once
 // Spread of a rival that takes over.
 constexpr double kSpread_m = 0.1, kSpread_rad = 0.05;
+
+// One radian counts as one metre.
+double way(const Pose2& T) { return std::hypot(T.x, T.y) + std::abs(normalize_angle(T.theta)); }
 
 bool is_near(const Pose2& T, double within_m, double within_rad) {
   return std::hypot(T.x, T.y) < within_m && std::abs(normalize_angle(T.theta)) < within_rad;
@@ -22,17 +22,21 @@ bool is_near(const Pose2& T, double within_m, double within_rad) {
 
 // How much better the remembered scans fit at the found places than where the robot is believed, nat.
 std::vector<double> gains_of(const std::vector<LocatedPose>& found, const std::vector<Glimpse>& glimpses,
-                             const StreamModel& model, const Pose2& believed,
+                             const StreamModel& model, const Pose2& believed, const Rivals& rivals,
                              const RecoveryOptions& options) {
   std::vector<double> gains(found.size());
   std::vector<Pose2> places(found.size() + 1);
   std::vector<double> fits(places.size());
+  const Glimpse* before = nullptr;
   for (const Glimpse& glimpse : glimpses) {
+    const double moved_m = before ? way(inverse(before->T_now_then) * glimpse.T_now_then) : options.news_m;
+    const double news = std::min(1.0, moved_m / options.news_m);
+    before = &glimpse;
     places[0] = believed * glimpse.T_now_then;
     for (std::size_t i = 0; i < found.size(); ++i) places[i + 1] = found[i].T_map_base * glimpse.T_now_then;
     if (!model.follow(glimpse.z, places, fits)) return gains;
     for (std::size_t i = 0; i < found.size(); ++i)
-      gains[i] += std::clamp(options.rival_beams * (fits[i + 1] - fits[0]), -kMostPerScan, kMostPerScan);
+      gains[i] += news * (rivals.evidence(fits[i + 1]) - rivals.evidence(fits[0]));
   }
   return gains;
 }
@@ -45,7 +49,9 @@ void RecoveryOptions::visit(OptionVisitor& v) {
   v.number({"drop", "and where the map explains by this share fewer beams than usual"}, drop, {0.0, 1.0});
   v.number({"surprise", "a scan that it explains by this less than the last is worth an update; 0: never"},
            surprise, {0.0, 1.0});
-  v.number({"prior", "least probability of being lost while in doubt"}, prior, {1e-9, 0.999});
+  v.number({"prior", "probability of being elsewhere when doubt begins, shared by what is found"}, prior,
+           {1e-9, 0.999});
+  v.number({"news_m", "way after which a scan is news, metres"}, news_m, {1e-3, 100.0});
   v.number({"every_s", "time between two searches, doubled after each that finds nothing, seconds"}, every_s,
            {0.0, 1e6});
   v.number({"at_most_every_s", "up to this, seconds"}, at_most_every_s, {0.0, 1e6});
@@ -61,8 +67,10 @@ void RecoveryOptions::visit(OptionVisitor& v) {
            millions_of_points, {0.01, 1e6});
   v.number({"rival_beams", "as laser.effective_beams, for a scan that rivals are weighed by"}, rival_beams,
            {0.01, 1e5});
+  v.number({"rival_most", "a scan never speaks more than this against a place, nat"}, rival_most, {0.0, 1e3});
   v.number({"accept", "log-odds at which a rival takes over"}, accept, {0.0, 1e3});
-  v.integer({"confirm", "that has been weighed by so many scans since it was found"}, confirm, {0, 1000});
+  v.number({"share", "with this probability among all places"}, share, {0.0, 1.0});
+  v.integer({"confirm", "and weighed by so many scans since it was found"}, confirm, {0, 1000});
   v.integer({"particles", "that come in then"}, particles, {1, 1'000'000});
 }
 
@@ -78,11 +86,13 @@ void Recovery::carry(RecoveryMemory& memory, const Pose2& T_before_after, double
   const Pose2 T_now_before = inverse(T_before_after);
   for (Glimpse& glimpse : memory.glimpses) glimpse.T_now_then = T_now_before * glimpse.T_now_then;
   Rivals::carry(memory.rivals, T_before_after, since_s);
+  memory.moved_m += way(T_before_after);
 }
 
 void Recovery::observe(RecoveryMemory& memory, StreamId stream, const StreamModel& model,
                        const Event::Payload& z, const Pose2& believed, bool in_doubt) const {
-  rivals_.weigh(memory.rivals, model, z, believed);
+  rivals_.weigh(memory.rivals, model, z, believed, std::min(1.0, memory.moved_m / options_.news_m));
+  memory.moved_m = 0.0;
   remember(memory, stream, z, in_doubt);
 }
 
@@ -113,7 +123,7 @@ bool Recovery::due(const RecoveryMemory& memory, Time now) const {
   return !memory.searched || to_seconds(now - memory.searched_at) >= wait_s || now < memory.searched_at;
 }
 
-void Recovery::search(RecoveryMemory& memory, const StreamModel& model, Time now, double probability,
+void Recovery::search(RecoveryMemory& memory, const StreamModel& model, Time now,
                       const Pose2& believed) const {
   if (!due(memory, now)) return;
   const auto finding = model.search(memory.glimpses, {});
@@ -122,9 +132,10 @@ void Recovery::search(RecoveryMemory& memory, const StreamModel& model, Time now
   memory.searched_at = now;
   ++memory.searches;
   memory.wait_s = std::min(2.0 * std::max(memory.wait_s, options_.every_s), options_.at_most_every_s);
-  const double right = std::clamp(probability, kLeastProbability, 1.0 - options_.prior);
-  const std::vector<double> gains = gains_of(finding->poses, memory.glimpses, model, believed, options_);
-  const double before = std::log((1.0 - right) / right) - kOfMany;
+  const std::vector<double> gains =
+      gains_of(finding->poses, memory.glimpses, model, believed, rivals_, options_);
+  const double before = std::log(options_.prior / (1.0 - options_.prior)) -
+                        std::log(static_cast<double>(std::max<std::size_t>(1, gains.size())));
   for (std::size_t i = 0; i < gains.size(); ++i) {
     rivals_.add(memory.rivals, {finding->poses[i].T_map_base, before + gains[i], 0, 0.0, ++memory.last_id},
                 believed);
@@ -138,7 +149,9 @@ Eigen::Matrix3d Recovery::spread() {
 
 bool Recovery::take_over(RecoveryMemory& memory, const Pose2& believed, PoseFilter& filter) const {
   Rival* const strongest = Rivals::strongest(memory.rivals, options_.confirm);
-  if (strongest == nullptr || strongest->log_odds < options_.accept) return false;
+  if (strongest == nullptr || strongest->log_odds < options_.accept ||
+      std::exp(strongest->log_odds) * Rivals::believed_share(memory.rivals) < options_.share)
+    return false;
   const Rival winner = rivals_.take_over(memory.rivals, *strongest, believed);
   const RandomStream random(seed_, RandomPurpose::kCandidates, ++memory.takeovers);
   std::vector<Pose2> states;

@@ -14,24 +14,27 @@ namespace cairn {
 
 /// When and how a lost robot is looked for.
 struct RecoveryOptions {
-  bool active = false;    ///< off: see decision 90
+  bool active = true;
   double doubt = 0.9;     ///< in doubt while the pose is right with less than this probability,
   double drop = 0.12;     ///< and where the map explains by this share fewer beams than usual
   double surprise = 0.3;  ///< a scan of which it explains by this less than of the last is worth an update
-  double prior = 0.05;    ///< least probability of being lost while in doubt
+  double prior = 0.05;    ///< probability of being elsewhere when doubt begins, shared by what is found
+  double news_m = 0.25;   ///< way after which a scan is news; one taken nearer to the last says less
   double every_s = 0.5;   ///< time between two searches, doubled after each that finds nothing new
   double at_most_every_s = 4.0;    ///< up to this
   int scans = 8;                   ///< of the last ones that may be joined
   double spacing_m = 0.2;          ///< those nearer to the one before than this ...
   double spacing_rad = 0.2;        ///< ... and turned by less than this are left out, but for the newest
-  int most_poses = 8;              ///< distinct places
+  int most_poses = 40;             ///< distinct places
   double sigma_hit_m = 0.15;       ///< as laser.sigma_hit_m, in the search
   double effective_beams = 12.0;   ///< as laser.effective_beams, for the first of the joined scans
   double further_beams = 5.0;      ///< likewise for each of the others
   double millions_of_points = 30;  ///< a search looks up at most this many million end points
-  double rival_beams = 3.0;        ///< as laser.effective_beams, for a scan that rivals are weighed by
+  double rival_beams = 10.0;       ///< as laser.effective_beams, for a scan that rivals are weighed by
+  double rival_most = 10.0;        ///< a scan never speaks more than this against a place, nat
   double accept = 4.0;             ///< log-odds at which a rival takes over ...
-  int confirm = 3;                 ///< that has been weighed by so many scans since it was found
+  double share = 0.9;              ///< with this probability among all places,
+  int confirm = 1;                 ///< and weighed by so many scans since it was found
   int particles = 300;             ///< that come in then
 
   void visit(OptionVisitor& visitor);
@@ -49,17 +52,22 @@ struct RecoveryMemory {
   std::uint32_t takeovers = 0;
   std::uint32_t last_id = 0;  ///< of the rivals
   int doubtful = 0;           ///< scans for which the doubt goes on
+  double moved_m = 0.0;       ///< since the last scan that rivals were weighed by; 1 rad counts as 1 m
 };
 
 /// Brings a robot that was carried away back. While the pose is in doubt, global localization from the scans
-/// since then finds other places. Each begins as a rival of the believed one with the log-odds of being lost,
-/// plus what those scans fit better there than where the robot is believed. From then on rivals and belief
-/// compete from scan to scan (rivals.hpp). The belief is left alone until one of them wins.
+/// since then finds other places. Each begins as a rival of the believed one with the prior log-odds of being
+/// lost, plus what those scans fit better there than where the robot is believed. From then on rivals and
+/// belief compete from scan to scan (rivals.hpp). The belief is left alone until one of them wins, against it
+/// and against all others: where two places fit alike, none does. Scans count as far as they are news: what
+/// stands in the way is seen again and again from nearby (decision 95).
 /// Immutable; deterministic: a function of the measurements in their order.
 class Recovery {
  public:
   Recovery(const RecoveryOptions& options, std::uint64_t seed)
-      : options_(options), rivals_({.beams = options.rival_beams}), seed_(seed) {}
+      : options_(options),
+        rivals_({.beams = options.rival_beams, .largest = options.rival_most}),
+        seed_(seed) {}
 
   /// Whether a scan makes the pose doubtful.
   /// @param right probability of the pose, the scan included
@@ -76,8 +84,7 @@ class Recovery {
                const Pose2& believed, bool in_doubt) const;
 
   /// Searches, if it is time to.
-  void search(RecoveryMemory& memory, const StreamModel& model, Time now, double probability,
-              const Pose2& believed) const;
+  void search(RecoveryMemory& memory, const StreamModel& model, Time now, const Pose2& believed) const;
 
   /// Covariance of a rival that takes over.
   static Eigen::Matrix3d spread();

@@ -52,32 +52,34 @@ class RecoveryTest : public testing::Test {
     recovery_.observe(memory_, 1, model, test::fake_measurement(at_s).payload, {}, in_doubt);
   }
   // One scan in doubt, a search, and whether what was found takes over at once.
-  bool after_one_scan(double gain, double probability) {
+  bool after_one_scan(double gain) {
     const FoundElsewhere model(gain);
     memory_ = {};
     observe(model, 1.0, true);
-    recovery_.search(memory_, model, at(1.0), probability, {});
+    recovery_.search(memory_, model, at(1.0), {});
     return recovery_.take_over(memory_, {}, filter_);
   }
 
-  Recovery recovery_{
-      RecoveryOptions{.active = true, .rival_beams = FoundElsewhere::kBeams, .accept = 3.0, .confirm = 0}, 1};
+  Recovery recovery_{RecoveryOptions{.active = true,
+                                     .prior = 0.2,
+                                     .rival_beams = FoundElsewhere::kBeams,
+                                     .accept = 0.5,
+                                     .share = 0.6,
+                                     .confirm = 0},
+                     1};
   RecoveryMemory memory_;
   test::ListeningFilter filter_;
 };
 
-// One nat is what the best of many places fits better by chance.
-TEST_F(RecoveryTest, WhatIsFoundBeginsWithTheOddsOfBeingLostAndWhatTheScansFitBetter) {
-  EXPECT_FALSE(after_one_scan(2.0, 0.4));
+TEST_F(RecoveryTest, WhatIsFoundBeginsWithThePriorAndWhatTheScansFitBetter) {
+  EXPECT_FALSE(after_one_scan(1.5));
   ASSERT_EQ(memory_.rivals.size(), 1u);
-  EXPECT_NEAR(memory_.rivals[0].log_odds, 2.0 + std::log(0.6 / 0.4) - 1.0, 1e-9);
-  after_one_scan(2.0, 1.0);  // in doubt, whatever the monitor says
-  EXPECT_NEAR(memory_.rivals[0].log_odds, 2.0 + std::log(0.05 / 0.95) - 1.0, 1e-9);
+  EXPECT_NEAR(memory_.rivals[0].log_odds, 1.5 + std::log(0.2 / 0.8), 1e-9);
 }
 
 TEST_F(RecoveryTest, AWinnerTakesOverWithItsShare) {
-  EXPECT_TRUE(after_one_scan(2.9, 0.2));
-  const double log_odds = 2.9 + std::log(4.0) - 1.0;
+  EXPECT_TRUE(after_one_scan(2.9));
+  const double log_odds = 2.9 + std::log(0.2 / 0.8);
   EXPECT_NEAR(filter_.share_, 1.0 / (1.0 + std::exp(-log_odds)), 1e-9);
   ASSERT_EQ(filter_.states_.size(), 300u);
   double x = 0.0;
@@ -89,17 +91,41 @@ TEST_F(RecoveryTest, AWinnerTakesOverWithItsShare) {
 
 TEST_F(RecoveryTest, AWinnerIsToBeConfirmedByFurtherScans) {
   const Recovery recovery(
-      RecoveryOptions{.active = true, .rival_beams = FoundElsewhere::kBeams, .accept = 1.0, .confirm = 2}, 1);
+      RecoveryOptions{
+          .active = true, .prior = 0.5, .rival_beams = FoundElsewhere::kBeams, .accept = 1.0, .confirm = 2},
+      1);
   const FoundElsewhere model(2.9);
   observe(model, 1.0, true);
-  recovery.search(memory_, model, at(1.0), 0.5, {});
+  recovery.search(memory_, model, at(1.0), {});
   EXPECT_FALSE(recovery.take_over(memory_, {}, filter_));
   for (Rival& rival : memory_.rivals) rival.scans = 2;
   EXPECT_TRUE(recovery.take_over(memory_, {}, filter_));
 }
 
+// A symmetric building: to choose one of two places would be wrong every other time.
+TEST_F(RecoveryTest, WhereTwoPlacesFitAlikeNoneTakesOver) {
+  memory_.rivals = {{{5, 0, 0}, 6.0}, {{9, 0, 0}, 6.0}};
+  EXPECT_FALSE(recovery_.take_over(memory_, {}, filter_));
+  memory_.rivals[1].log_odds = 3.0;
+  EXPECT_TRUE(recovery_.take_over(memory_, {}, filter_));
+}
+
+// What stands in the way is seen again and again from nearby.
+TEST_F(RecoveryTest, AScanCountsAsFarAsItIsNews) {
+  const FoundElsewhere model(2.0);
+  memory_.rivals = {{{5, 0, 0}, 0.0}};
+  observe(model, 0.0, true);  // the robot has not moved
+  EXPECT_EQ(memory_.rivals[0].log_odds, 0.0);
+  Recovery::carry(memory_, {0.125, 0.0, 0.0}, 1.0);
+  observe(model, 1.0, true);
+  EXPECT_NEAR(memory_.rivals[0].log_odds, 1.0, 1e-9);  // half of the way of a whole scan
+  Recovery::carry(memory_, {0.125, 0.0, 0.3}, 1.0);
+  observe(model, 2.0, true);
+  EXPECT_NEAR(memory_.rivals[0].log_odds, 3.0, 1e-9);
+}
+
 TEST_F(RecoveryTest, ABeliefThatExplainsTheScansAsWellIsNotDisturbed) {
-  EXPECT_FALSE(after_one_scan(0.0, 0.1));
+  EXPECT_FALSE(after_one_scan(0.0));
   EXPECT_TRUE(filter_.states_.empty());
 }
 
@@ -114,7 +140,7 @@ TEST_F(RecoveryTest, DoubtComesFromTheJudgementOrFromFewerExplainedBeamsThanUsua
 TEST_F(RecoveryTest, WhoIsNotInDoubtIsNotLookedFor) {
   const FoundElsewhere model(50.0);
   observe(model, 1.0, false);
-  recovery_.search(memory_, model, at(1.0), 0.99, {});
+  recovery_.search(memory_, model, at(1.0), {});
   EXPECT_EQ(model.searches_, 0);
 }
 
@@ -122,7 +148,7 @@ TEST_F(RecoveryTest, SearchesBecomeRareWhileTheDoubtLasts) {
   const FoundElsewhere model(-20.0);
   for (int i = 0; i < 600; ++i) {
     observe(model, 0.1 * i, true);
-    recovery_.search(memory_, model, at(0.1 * i), 0.1, {});
+    recovery_.search(memory_, model, at(0.1 * i), {});
   }
   EXPECT_GE(model.searches_, 15);
   EXPECT_LE(model.searches_, 18);  // at 0, 1, 3, 7 s, then every 4
@@ -136,7 +162,7 @@ TEST_F(RecoveryTest, TheScansOfTheDoubtAreJoinedAsTheRobotMoved) {
     Recovery::carry(memory_, step, 1.0);
     observe(model, i, true);
   }
-  recovery_.search(memory_, model, at(4.0), 0.1, {});
+  recovery_.search(memory_, model, at(4.0), {});
   ASSERT_EQ(model.glimpses_.size(), 4u);
   const Pose2 expected = inverse(step * step * step);
   EXPECT_LT(distance(model.glimpses_[0].T_now_then, expected), 1e-9);
@@ -155,9 +181,9 @@ TEST_F(RecoveryTest, ScansNearToEachOtherAreNotJoinedTwice) {
 }
 
 TEST_F(RecoveryTest, TheSameMeasurementsBringTheSamePosesIn) {
-  EXPECT_TRUE(after_one_scan(2.9, 0.2));
+  EXPECT_TRUE(after_one_scan(2.9));
   const std::vector<Pose2> first = filter_.states_;
-  EXPECT_TRUE(after_one_scan(2.9, 0.2));
+  EXPECT_TRUE(after_one_scan(2.9));
   EXPECT_EQ(first, filter_.states_);
 }
 

@@ -18,18 +18,19 @@ bool Rivals::same(const Pose2& a, const Pose2& b) const {
   return distance(a, b) < rules_.same_m && std::abs(normalize_angle(a.theta - b.theta)) < rules_.same_rad;
 }
 
+double Rivals::evidence(double fit) const { return std::max(rules_.beams * fit, -rules_.largest); }
+
 void Rivals::weigh(std::vector<Rival>& rivals, const StreamModel& model, const Event::Payload& z,
-                   const Pose2& believed) const {
+                   const Pose2& believed, double news) const {
   if (rivals.empty()) return;
   std::vector<Pose2> places{believed};
   for (const Rival& rival : rivals) places.push_back(rival.T_map_base);
   std::vector<double> fits(places.size());
   if (!model.follow(z, places, fits)) return;
   for (std::size_t i = 0; i < rivals.size(); ++i) {
-    const double gain = rules_.beams * (fits[i + 1] - fits[0]);
     rivals[i].T_map_base = places[i + 1];
     ++rivals[i].scans;
-    rivals[i].log_odds += std::clamp(gain, -rules_.largest, rules_.largest);
+    rivals[i].log_odds += news * (evidence(fits[i + 1]) - evidence(fits[0]));
   }
   prune(rivals, believed);
 }

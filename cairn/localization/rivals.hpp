@@ -43,11 +43,16 @@ class Rivals {
 
   /// Weighs all by one measurement; those that became hopeless, or that have come to be the believed place or
   /// a better rival, are given up. Nothing changes where the model cannot follow places.
+  /// @param news 0 to 1: how much of it is not what was seen before
   void weigh(std::vector<Rival>& rivals, const StreamModel& model, const Event::Payload& z,
-             const Pose2& believed) const;
+             const Pose2& believed, double news = 1.0) const;
 
   /// Adds what a search found. A place that is known already keeps its log-odds: they rest on more scans.
   void add(std::vector<Rival>& rivals, const Rival& found, const Pose2& believed) const;
+
+  /// What a scan says for a place where it fits so well, 0 at most and -largest at least, nat. The floor is
+  /// that of each place, not of their difference: where the belief is quite wrong, rivals still differ.
+  double evidence(double fit) const;
 
   /// The strongest of those that have been weighed by at least so many scans; nullptr: there is none.
   static Rival* strongest(std::vector<Rival>& rivals, int scans);

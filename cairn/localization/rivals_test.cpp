@@ -42,7 +42,7 @@ class RivalsTest : public testing::Test {
 TEST_F(RivalsTest, TheTruePlaceWinsScanByScan) {
   rivals_.add(all_, {{5, 0, 0}, -8.0}, believed_);
   rivals_.add(all_, {{9, 0, 0}, -4.0}, believed_);
-  weigh(FitsThere({5, 0, 0}, -0.5), 3);
+  weigh(FitsThere({5, 0, 0}, -0.1), 3);
   EXPECT_NEAR(all_[1].log_odds, -4.0, 1e-12);  // it fits as badly as the belief
   EXPECT_EQ(Rivals::strongest(all_, 3)->T_map_base.x, 5.0);
   EXPECT_NEAR(Rivals::strongest(all_, 3)->log_odds, -8.0 + 3 * 5.0 * 0.4, 1e-12);
@@ -67,6 +67,13 @@ TEST_F(RivalsTest, OneScanNeverSaysMoreThanTheLargest) {
   rivals.add(all_, {{5, 0, 0}, -3.0}, believed_);
   rivals.weigh(all_, FitsThere({5, 0, 0}, 0.0), test::fake_measurement(0.0).payload, believed_);
   EXPECT_DOUBLE_EQ(all_.front().log_odds, 0.0);
+}
+
+// The floor is that of each place: next to a belief that is quite wrong, a good rival still beats a fair one.
+TEST_F(RivalsTest, RivalsOfAHopelessBeliefStillDiffer) {
+  const Rivals rivals({.beams = 10.0, .largest = 10.0});
+  EXPECT_DOUBLE_EQ(rivals.evidence(-3.0), -10.0);
+  EXPECT_DOUBLE_EQ(rivals.evidence(-0.2) - rivals.evidence(-0.5), 3.0);
 }
 
 TEST_F(RivalsTest, APlaceIsKnownOnce) {

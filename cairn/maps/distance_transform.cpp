@@ -10,26 +10,15 @@
 namespace cairn {
 namespace {
 
-constexpr std::size_t kLargestVector = 64;      // bytes
-constexpr std::size_t kColumnsPerStrip = 1024;  // a strip of a thousand rows stays in the cache
-constexpr std::size_t kRowsPerTask = 64;
+constexpr std::size_t kLargestVector = 64;  // bytes
+constexpr std::size_t kRowsPerBand =
+    128;  // with a thousand columns, a band stays in the nearest cache but one
 
 // The lowest percentage that counts as occupied; 127 if none does.
 std::int8_t occupied_from(const OccupancyGrid::Thresholds& thresholds) {
   std::int8_t percent = 0;
   while (percent <= 100 && !(percent / 100.0 > thresholds.occupied)) ++percent;
   return percent <= 100 ? percent : std::int8_t{127};
-}
-
-void distances_along_columns(const OccupancyGrid& grid, std::uint8_t cap, std::uint8_t* out,
-                             const Executor& executor) {
-  const auto width = static_cast<std::size_t>(grid.geometry().width);
-  const std::int8_t threshold = occupied_from(grid.thresholds());
-  executor.for_each_chunk(width, kColumnsPerStrip, [&](std::size_t begin, std::size_t end) {
-    distances_in_columns({grid.cells().data() + begin, out + begin, width, end - begin,
-                          static_cast<std::size_t>(grid.geometry().height)},
-                         threshold, cap);
-  });
 }
 
 // The blocks of a row whose window holds an occupied cell within reach; elsewhere everything is far.
@@ -101,6 +90,24 @@ class RowPass {
   std::vector<std::uint16_t> out_;
 };
 
+// Consecutive rows, with those within reach on both sides: nothing farther away counts in them.
+class Band {
+ public:
+  Band(const OccupancyGrid& grid, std::size_t begin, std::size_t end, std::uint8_t cap)
+      : width_(static_cast<std::size_t>(grid.geometry().width)), first_(begin > cap ? begin - cap : 0) {
+    const std::size_t last = std::min(end + cap, static_cast<std::size_t>(grid.geometry().height));
+    along_columns_ = std::make_unique_for_overwrite<std::uint8_t[]>((last - first_) * width_);
+    distances_in_columns({grid.cells().data() + first_ * width_, along_columns_.get(), width_, last - first_},
+                         occupied_from(grid.thresholds()), cap);
+  }
+
+  const std::uint8_t* row(std::size_t y) const { return along_columns_.get() + (y - first_) * width_; }
+
+ private:
+  std::size_t width_, first_;
+  std::unique_ptr<std::uint8_t[]> along_columns_;
+};
+
 }  // namespace
 
 std::unique_ptr<std::uint16_t[]> truncated_squared_distances(const OccupancyGrid& grid, std::uint16_t far,
@@ -111,14 +118,13 @@ std::unique_ptr<std::uint16_t[]> truncated_squared_distances(const OccupancyGrid
   auto cap = static_cast<int>(std::sqrt(static_cast<double>(far)));
   while (cap * cap < far) ++cap;
   const auto width = static_cast<std::size_t>(g.width);
-  const auto along_columns = std::make_unique_for_overwrite<std::uint8_t[]>(g.size());
-  distances_along_columns(grid, static_cast<std::uint8_t>(cap), along_columns.get(), executor);
   auto squared = std::make_unique_for_overwrite<std::uint16_t[]>(g.size());
-  executor.for_each_chunk(static_cast<std::size_t>(g.height), kRowsPerTask,
+  executor.for_each_chunk(static_cast<std::size_t>(g.height), kRowsPerBand,
                           [&](std::size_t begin, std::size_t end) {
+                            const Band band(grid, begin, end, static_cast<std::uint8_t>(cap));
                             RowPass pass(width, far, static_cast<std::uint8_t>(cap));
                             for (std::size_t row = begin; row < end; ++row)
-                              pass.transform(along_columns.get() + row * width, squared.get() + row * width);
+                              pass.transform(band.row(row), squared.get() + row * width);
                           });
   return squared;
 }

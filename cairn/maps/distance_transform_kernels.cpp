@@ -12,7 +12,7 @@ namespace cairn::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-void distances_in_columns(const ColumnStrip& s, std::int8_t occupied_from, std::uint8_t cap) {
+void distances_in_columns(const RowBand& s, std::int8_t occupied_from, std::uint8_t cap) {
   const hn::ScalableTag<std::uint8_t> d;
   const hn::RebindToSigned<decltype(d)> di;
   const std::size_t lanes = hn::Lanes(d);
@@ -20,9 +20,9 @@ void distances_in_columns(const ColumnStrip& s, std::int8_t occupied_from, std::
   const auto most = hn::Set(d, cap), one = hn::Set(d, 1);
   const std::size_t vectors_end = s.columns / lanes * lanes;
   for (std::size_t row = 0; row < s.rows; ++row) {
-    const std::int8_t* cell = s.cells + row * s.stride;
-    std::uint8_t* here = s.out + row * s.stride;
-    const std::uint8_t* below = here - s.stride;  // read from the second row on
+    const std::int8_t* cell = s.cells + row * s.columns;
+    std::uint8_t* here = s.out + row * s.columns;
+    const std::uint8_t* below = here - s.columns;  // read from the second row on
     for (std::size_t c = 0; c < vectors_end; c += lanes) {
       const auto before = row == 0 ? most : hn::LoadU(d, below + c);
       const auto free = hn::RebindMask(d, hn::Lt(hn::LoadU(di, cell + c), threshold));
@@ -35,8 +35,8 @@ void distances_in_columns(const ColumnStrip& s, std::int8_t occupied_from, std::
     }
   }
   for (std::size_t row = s.rows - 1; row-- > 0;) {
-    std::uint8_t* here = s.out + row * s.stride;
-    const std::uint8_t* above = here + s.stride;
+    std::uint8_t* here = s.out + row * s.columns;
+    const std::uint8_t* above = here + s.columns;
     for (std::size_t c = 0; c < vectors_end; c += lanes) {
       const auto through = hn::SaturatedAdd(hn::LoadU(d, above + c), one);
       hn::StoreU(hn::Min(hn::LoadU(d, here + c), through), d, here + c);
@@ -87,8 +87,8 @@ HWY_EXPORT(distances_in_columns);
 HWY_EXPORT(square_row);
 HWY_EXPORT(least_in_windows);
 
-void distances_in_columns(const ColumnStrip& strip, std::int8_t occupied_from, std::uint8_t cap) {
-  HWY_DYNAMIC_DISPATCH(distances_in_columns)(strip, occupied_from, cap);
+void distances_in_columns(const RowBand& band, std::int8_t occupied_from, std::uint8_t cap) {
+  HWY_DYNAMIC_DISPATCH(distances_in_columns)(band, occupied_from, cap);
 }
 
 void square_row(const std::uint8_t* distances, std::uint8_t cap, std::uint16_t far, std::uint16_t* squares,

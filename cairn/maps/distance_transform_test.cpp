@@ -32,7 +32,7 @@ void expect_equal(const OccupancyGrid& grid, int far, const std::vector<double>&
   }
 }
 
-// Sizes around the lengths of the vectors, a row of many strips and many windows, one long column.
+// Sizes around the lengths of the vectors, a row of many windows, columns through many bands.
 TEST(TruncatedSquaredDistances, EqualTheOracleOnEveryPath) {
   std::uint64_t step = 0;
   for (const auto& [width, height, walls] : {std::tuple{1, 1, 1.0},

@@ -21,9 +21,9 @@ class Kidnap(CliTest):
         with open(self.folder / out / name, newline="") as file:
             return list(csv.DictReader(file))
 
-    def test_a_carried_robot_is_found_again_where_recovery_is_on(self):
+    def test_a_carried_robot_is_found_again(self):
         events = ["--events", "3", "--before", "5", "--after", "12", "--distance", "2", "--seed", "2"]
-        result = self.kidnap(*events, "--set", "recovery.active=true", out="on")
+        result = self.kidnap(*events, out="on")
         self.assertEqual(result.returncode, OK, result.stderr)
         self.assertIn("kidnapped 3 times", result.stdout)
         self.assertGreaterEqual(sum(float(row["found_after_s"]) >= 0 for row in self.rows("on", "events.csv")), 2)
@@ -35,7 +35,7 @@ class Kidnap(CliTest):
             self.assertGreaterEqual(int(row["among"]), int(row["right"]))
 
     def test_the_same_bytes_for_any_number_of_jobs(self):
-        events = ["--events", "2", "--before", "4", "--after", "4", "--set", "recovery.active=true"]
+        events = ["--events", "2", "--before", "4", "--after", "4"]
         for out, jobs in (("one", "1"), ("two", "2")):
             self.assertEqual(self.kidnap(*events, "--jobs", jobs, out=out).returncode, OK)
         for name in ("events.csv", "updates.csv"):

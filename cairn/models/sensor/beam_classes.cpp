@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kHit = 0.85;
 constexpr double kElsewhere = 0.15;
+constexpr double kLargestResidual = 2.0;
 
 double bearing_of(const LaserScan& scan, std::size_t beam) {
   return scan.angle_min_rad + static_cast<double>(beam) * scan.angle_increment_rad;
@@ -80,6 +81,7 @@ BeamShares BeamClassifier::classify(const LaserScan& scan, const Pose2& T_map_ba
     switch (class_of(range_m, expected_m[i], end)) {
       case Class::kExplained:
         shares.explained += one;
+        shares.residual += one * std::min(0.5 * off * off, kLargestResidual);
         break;
       case Class::kBlocked:
         shares.blocked += one;

@@ -21,6 +21,8 @@ struct BeamShares {
   int beams = 0;           ///< that were looked at; 0: the scan says nothing
   /// If so: share of its beams for which the map leads to expect a wall within reach.
   double missing = 0.0;
+  /// Mean over the beams of d^2 / (2 sigma^2), at most 2, of the explained ones; 0 for the others.
+  double residual = 0.0;
 };
 
 struct BeamClassOptions {

@@ -8,7 +8,8 @@ namespace cairn {
 namespace {
 
 double fit_of(const BeamShares& shares, const PlaceFitOptions& o) {
-  return -(o.blocked * shares.blocked + o.beyond * shares.beyond + o.unknown * shares.unknown);
+  return -(o.blocked * shares.blocked + o.beyond * shares.beyond + o.unknown * shares.unknown +
+           o.residual * shares.residual);
 }
 
 }  // namespace
