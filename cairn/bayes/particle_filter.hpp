@@ -220,8 +220,10 @@ class ParticleFilter {
   static constexpr std::uint32_t kInjectionDrawing = kMostPasses + 1;
   static constexpr double kNegligibleShare = 0.01;
 
-  // Equal weights leave nothing to resample.
+  // Equal weights leave nothing to resample, and no measurement since the last drawing nothing new: weights
+  // that it left unequal on purpose stay as they are.
   bool resampling_is_due() {
+    if (since_resampling_.updates == 0) return false;
     since_resampling_.ess = ess_;
     since_resampling_.particles = static_cast<double>(particles_.size());
     return ess_ < since_resampling_.particles && parts_.resample_when->due(since_resampling_);

@@ -2,6 +2,7 @@
 #include "cairn/bayes/particle_filter.hpp"
 
 #include "cairn/bayes/pose_kernel.hpp"
+#include "cairn/bayes/resampling/systematic.hpp"
 #include "cairn/core/angle.hpp"
 
 #include <algorithm>
@@ -121,6 +122,36 @@ TEST(ParticleFilter, ResamplesByTheEffectiveSampleSize) {
   EXPECT_EQ(*survivors(0.51, half).rbegin(), 149);
   const auto flat = measurement<int>([](const int&) { return -3.0; });
   EXPECT_EQ(survivors(1.0, flat).size(), 300u);
+}
+
+/// Leaves unequal weights behind, as clustered resampling does.
+struct LeavesWeights final : Resampling {
+  void draw(std::span<const double> cumulative, std::size_t count, const DrawingNumbers& numbers,
+            std::vector<std::uint32_t>& ancestors) override {
+    ++drawings;
+    draw_systematic(cumulative, count, numbers.single(), ancestors);
+  }
+  bool weigh_drawn(std::span<double> log_weights) override {
+    log_weights[0] += 5.0;
+    return true;
+  }
+  int drawings = 0;
+};
+
+TEST(ParticleFilter, DrawsOnceAfterAMeasurementHoweverOftenItPredicts) {
+  auto resampling = std::make_unique<LeavesWeights>();
+  const LeavesWeights& counted = *resampling;
+  ParticleFilter<int, int> filter(
+      std::make_shared<const Stay>(),
+      {.size = std::make_unique<FixedSize<int>>(10), .resampling = std::move(resampling)},
+      std::make_shared<const Executor>(), {.resample_ess_ratio = 0.9});
+  filter.initialize([](const RandomStream&, std::uint32_t i) { return static_cast<int>(i); });
+  filter.update(0, measurement<int>([](const int& i) { return i < 2 ? 0.0 : -9.0; }));
+  for (int i = 0; i < 3; ++i) filter.predict(0);
+  EXPECT_EQ(counted.drawings, 1);
+  filter.correct(measurement<int>([](const int&) { return 0.0; }));
+  filter.predict(0);
+  EXPECT_EQ(counted.drawings, 2);
 }
 
 TEST(ParticleFilter, EffectiveSampleSizeAndWeightsAfterAMeasurement) {

@@ -110,6 +110,13 @@ TEST_F(RecoveryTest, WhereTwoPlacesFitAlikeNoneTakesOver) {
   EXPECT_TRUE(recovery_.take_over(memory_, {}, filter_));
 }
 
+// ... but both are better than a belief that is refuted; the other one stays a rival.
+TEST_F(RecoveryTest, OneOfTwoPlacesTakesOverFromAHopelessBelief) {
+  memory_.rivals = {{{5, 0, 0}, 12.0}, {{9, 0, 0}, 12.0}};
+  EXPECT_TRUE(recovery_.take_over(memory_, {}, filter_));
+  EXPECT_NEAR(Rivals::believed_share(memory_.rivals), 0.5, 1e-4);
+}
+
 // What stands in the way is seen again and again from nearby.
 TEST_F(RecoveryTest, AScanCountsAsFarAsItIsNews) {
   const FoundElsewhere model(2.0);
