@@ -9,6 +9,7 @@ namespace cairn {
 namespace {
 
 constexpr int kDoubtfulScans = 3;       // for which one scan raises doubt
+constexpr double kBestOfFew = 0.3;      // probability of one of two or three places that fit alike
 constexpr double kLargestShare = 0.98;  // of the belief that a rival may get at once
 // Spread of a rival that takes over.
 constexpr double kSpread_m = 0.1, kSpread_rad = 0.05;
@@ -70,7 +71,7 @@ void RecoveryOptions::visit(OptionVisitor& v) {
   v.number({"rival_most", "a scan never speaks more than this against a place, nat"}, rival_most, {0.0, 1e3});
   v.number({"accept", "log-odds at which a rival takes over"}, accept, {0.0, 1e3});
   v.number({"share", "with this probability among all places"}, share, {0.0, 1.0});
-  v.number({"hopeless", "or with these log-odds, if it is one of several"}, hopeless, {0.0, 1e3});
+  v.number({"hopeless", "or with these log-odds, if it is one of two or three"}, hopeless, {0.0, 1e3});
   v.integer({"confirm", "and weighed by so many scans since it was found"}, confirm, {0, 1000});
   v.integer({"particles", "that come in then"}, particles, {1, 1'000'000});
 }
@@ -152,7 +153,8 @@ bool Recovery::take_over(RecoveryMemory& memory, const Pose2& believed, PoseFilt
   Rival* const strongest = Rivals::strongest(memory.rivals, options_.confirm);
   if (strongest == nullptr || strongest->log_odds < options_.accept) return false;
   const double probability = std::exp(strongest->log_odds) * Rivals::believed_share(memory.rivals);
-  if (probability < options_.share && strongest->log_odds < options_.hopeless) return false;
+  const bool best_of_few = strongest->log_odds >= options_.hopeless && probability >= kBestOfFew;
+  if (probability < options_.share && !best_of_few) return false;
   const Rival winner = rivals_.take_over(memory.rivals, *strongest, believed);
   const RandomStream random(seed_, RandomPurpose::kCandidates, ++memory.takeovers);
   std::vector<Pose2> states;

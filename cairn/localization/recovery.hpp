@@ -34,7 +34,7 @@ struct RecoveryOptions {
   double rival_most = 10.0;        ///< a scan never speaks more than this against a place, nat
   double accept = 4.0;             ///< log-odds at which a rival takes over ...
   double share = 0.9;              ///< with this probability among all places, or against a belief that
-  double hopeless = 10.0;          ///< has lost by so much that the best of several is better anyway,
+  double hopeless = 10.0;          ///< has lost by so much that the best of two or three is better,
   int confirm = 1;                 ///< and weighed by so many scans since it was found
   int particles = 300;             ///< that come in then
 

@@ -117,6 +117,11 @@ TEST_F(RecoveryTest, OneOfTwoPlacesTakesOverFromAHopelessBelief) {
   EXPECT_NEAR(Rivals::believed_share(memory_.rivals), 0.5, 1e-4);
 }
 
+TEST_F(RecoveryTest, OneOfManyPlacesDoesNot) {
+  for (int i = 0; i < 4; ++i) memory_.rivals.push_back({{5.0 + 3.0 * i, 0, 0}, 12.0});
+  EXPECT_FALSE(recovery_.take_over(memory_, {}, filter_));
+}
+
 // What stands in the way is seen again and again from nearby.
 TEST_F(RecoveryTest, AScanCountsAsFarAsItIsNews) {
   const FoundElsewhere model(2.0);
