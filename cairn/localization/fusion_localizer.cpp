@@ -31,6 +31,7 @@ FusionLocalizer::FusionLocalizer(FusionParts parts)
                std::move(parts.executor)}),
       cost_clock_(std::move(parts.cost_clock)),
       accounts_(stream_names_.size()),
+      diagnostics_(std::move(parts.diagnostics)),
       queued_(stream_names_.size()) {}
 
 Outcome FusionLocalizer::process(const Event& event) {

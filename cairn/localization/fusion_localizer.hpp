@@ -32,6 +32,7 @@ struct FusionParts {
   TimeOptions time;
   SchedulerOptions scheduler;
   std::shared_ptr<const Executor> executor;
+  Diagnostics diagnostics = {};  ///< what whoever made the parts has to warn of
 };
 
 /// Any number of sensors, each with its own model, mount, map, rate and delay, and one pose filter: what

@@ -34,6 +34,18 @@ bool has_own_recovery(const std::string& recipe) {
          recipe == "ckld_srl";
 }
 
+// Recovery on a large map would take the memory of the machine, once the robot is lost.
+std::optional<Recovery> make_recovery(const LocalizerOptions& options, const GridGeometry& map,
+                                      std::uint64_t seed, Diagnostics& diagnostics) {
+  if (!options.recovery.active || has_own_recovery(options.recipe)) return std::nullopt;
+  const double millions = static_cast<double>(map.size()) / 1e6;
+  if (millions <= options.recovery.most_million_cells) return Recovery(options.recovery, seed);
+  diagnostics.warn("no recovery", "map of " + std::to_string(std::lround(millions)) + " million cells",
+                   "a lost robot will not be looked for: that takes about 60 bytes per cell; raise "
+                   "recovery.most_million_cells, or use a coarser map");
+  return std::nullopt;
+}
+
 FusionParts compose(const LocalizerOptions& options, const std::vector<StreamInfo>& streams,
                     const MapLibrary& maps, const Start& start, std::uint64_t seed,
                     std::shared_ptr<const Executor> executor, std::unique_ptr<CostClock> cost_clock,
@@ -54,8 +66,7 @@ FusionParts compose(const LocalizerOptions& options, const std::vector<StreamInf
       cost_clock ? std::move(cost_clock) : std::make_unique<ModelledCost>(options.scheduler.cost_ns);
   parts.trigger = {options.update, options.random_walk};
   parts.monitor = options.monitor;
-  if (options.recovery.active && !has_own_recovery(options.recipe))
-    parts.recovery.emplace(options.recovery, seed);
+  parts.recovery = make_recovery(options, map->geometry(), seed, parts.diagnostics);
   parts.time = options.time;
   parts.scheduler = options.scheduler;
   parts.executor = std::move(executor);

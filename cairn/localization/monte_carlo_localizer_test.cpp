@@ -184,6 +184,18 @@ TEST_F(MonteCarloLocalizerTest, CountsWhatIsMalformed) {
   EXPECT_EQ(warnings("malformed odometry"), 1);
 }
 
+TEST_F(MonteCarloLocalizerTest, SaysSoWhereTheMapIsTooLargeForARecovery) {
+  LocalizerOptions options;
+  make(options);
+  EXPECT_EQ(warnings("no recovery"), 0);
+  options.recovery.most_million_cells = 0.001;
+  make(options);
+  EXPECT_EQ(warnings("no recovery"), 1);
+  options.recovery.active = false;
+  make(options);
+  EXPECT_EQ(warnings("no recovery"), 0);
+}
+
 TEST_F(MonteCarloLocalizerTest, CountsEventsOfStreamsThatTheTableLacks) {
   make();
   for (const StreamId stream : {StreamId{2}, StreamId{65535}}) {

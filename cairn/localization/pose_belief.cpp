@@ -246,7 +246,7 @@ void PoseBelief::add_rivals(const Pose2& T_then_now, double since_s, HypothesisS
   const double share = Rivals::believed_share(rivals);
   for (Hypothesis& place : snapshot.hypotheses) place.weight *= share;
   for (const Rival& rival : rivals) {
-    const double weight = share * std::exp(rival.log_odds);
+    const double weight = Rivals::share(rivals, rival.log_odds);
     if (weight < kNegligible) continue;
     snapshot.hypotheses.push_back({rival.T_map_base * T_then_now, Recovery::spread(), weight,
                                    rival.age_s + since_s, kFirstRival + rival.id});

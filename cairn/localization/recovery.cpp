@@ -74,6 +74,8 @@ void RecoveryOptions::visit(OptionVisitor& v) {
   v.number({"hopeless", "or with these log-odds, if it is one of two or three"}, hopeless, {0.0, 1e3});
   v.integer({"confirm", "and weighed by so many scans since it was found"}, confirm, {0, 1000});
   v.integer({"particles", "that come in then"}, particles, {1, 1'000'000});
+  v.number({"most_million_cells", "no recovery on a larger map: a search needs about 60 bytes per cell"},
+           most_million_cells, {0.0, 1e4});
 }
 
 bool Recovery::doubtful(double right, double explained, double usual) const {
@@ -152,7 +154,7 @@ Eigen::Matrix3d Recovery::spread() {
 bool Recovery::take_over(RecoveryMemory& memory, const Pose2& believed, PoseFilter& filter) const {
   Rival* const strongest = Rivals::strongest(memory.rivals, options_.confirm);
   if (strongest == nullptr || strongest->log_odds < options_.accept) return false;
-  const double probability = std::exp(strongest->log_odds) * Rivals::believed_share(memory.rivals);
+  const double probability = Rivals::share(memory.rivals, strongest->log_odds);
   const bool best_of_few = strongest->log_odds >= options_.hopeless && probability >= kBestOfFew;
   if (probability < options_.share && !best_of_few) return false;
   const Rival winner = rivals_.take_over(memory.rivals, *strongest, believed);

@@ -37,6 +37,9 @@ struct RecoveryOptions {
   double hopeless = 10.0;          ///< has lost by so much that the best of two or three is better,
   int confirm = 1;                 ///< and weighed by so many scans since it was found
   int particles = 300;             ///< that come in then
+  /// The first search prepares the map, for about 60 bytes per cell: there is no recovery on a larger one,
+  /// and a warning says so.
+  double most_million_cells = 16.0;
 
   void visit(OptionVisitor& visitor);
 };

@@ -118,8 +118,11 @@ TEST_F(RecoveryTest, OneOfTwoPlacesTakesOverFromAHopelessBelief) {
 }
 
 TEST_F(RecoveryTest, OneOfManyPlacesDoesNot) {
-  for (int i = 0; i < 4; ++i) memory_.rivals.push_back({{5.0 + 3.0 * i, 0, 0}, 12.0});
-  EXPECT_FALSE(recovery_.take_over(memory_, {}, filter_));
+  for (const double log_odds : {12.0, 5000.0}) {
+    memory_.rivals.clear();
+    for (int i = 0; i < 4; ++i) memory_.rivals.push_back({{5.0 + 3.0 * i, 0, 0}, log_odds});
+    EXPECT_FALSE(recovery_.take_over(memory_, {}, filter_));
+  }
 }
 
 // What stands in the way is seen again and again from nearby.

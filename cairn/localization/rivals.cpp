@@ -1,6 +1,7 @@
 #include "cairn/localization/rivals.hpp"
 
 #include "cairn/core/angle.hpp"
+#include "cairn/core/statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +33,20 @@ void Rivals::weigh(std::vector<Rival>& rivals, const StreamModel& model, const E
     ++rivals[i].scans;
     rivals[i].log_odds += news * (evidence(fits[i + 1]) - evidence(fits[0]));
   }
+  merge(rivals, believed);
   prune(rivals, believed);
+}
+
+// Two that have become one place: it has the odds of both.
+void Rivals::merge(std::vector<Rival>& rivals, const Pose2& believed) const {
+  std::vector<double> log_odds{0.0};
+  for (const Rival& rival : rivals) {
+    if (same(rival.T_map_base, believed)) log_odds.push_back(rival.log_odds);
+  }
+  if (log_odds.size() == 1) return;
+  std::erase_if(rivals, [&](const Rival& rival) { return same(rival.T_map_base, believed); });
+  const double gained = log_sum_exp(log_odds);
+  for (Rival& rival : rivals) rival.log_odds -= gained;
 }
 
 // The strongest first; of those at one place it is the one that stays.
@@ -77,10 +91,10 @@ Rival Rivals::take_over(std::vector<Rival>& rivals, Rival& winner, const Pose2& 
   return won;
 }
 
-double Rivals::believed_share(const std::vector<Rival>& rivals) {
-  double odds = 0.0;
-  for (const Rival& rival : rivals) odds += std::exp(rival.log_odds);
-  return 1.0 / (1.0 + odds);
+double Rivals::share(const std::vector<Rival>& rivals, double log_odds) {
+  double others = std::exp(-log_odds);
+  for (const Rival& rival : rivals) others += std::exp(rival.log_odds - log_odds);
+  return 1.0 / others;
 }
 
 }  // namespace cairn

@@ -41,8 +41,9 @@ class Rivals {
   /// The robot has moved, and time has passed.
   static void carry(std::vector<Rival>& rivals, const Pose2& T_before_after, double since_s);
 
-  /// Weighs all by one measurement; those that became hopeless, or that have come to be the believed place or
-  /// a better rival, are given up. Nothing changes where the model cannot follow places.
+  /// Weighs all by one measurement; those that became hopeless, or that have come to be a better rival, are
+  /// given up; the believed place takes over the odds of one that has come to be it. Nothing changes where
+  /// the model cannot follow places.
   /// @param news 0 to 1: how much of it is not what was seen before
   void weigh(std::vector<Rival>& rivals, const StreamModel& model, const Event::Payload& z,
              const Pose2& believed, double news = 1.0) const;
@@ -61,11 +62,15 @@ class Rivals {
   /// Returns what it was.
   Rival take_over(std::vector<Rival>& rivals, Rival& winner, const Pose2& believed) const;
 
-  /// Probability of the believed place, if it is that or one of the rivals.
-  static double believed_share(const std::vector<Rival>& rivals);
+  /// Probability of a place with these log-odds against the believed one, if the robot is at one of the
+  /// rivals or there. Any odds, however large.
+  static double share(const std::vector<Rival>& rivals, double log_odds);
+  /// That of the believed place.
+  static double believed_share(const std::vector<Rival>& rivals) { return share(rivals, 0.0); }
 
  private:
   bool same(const Pose2& a, const Pose2& b) const;
+  void merge(std::vector<Rival>& rivals, const Pose2& believed) const;
   void prune(std::vector<Rival>& rivals, const Pose2& believed) const;
 
   RivalRules rules_;

@@ -105,6 +105,23 @@ TEST_F(RivalsTest, SharesSumToOne) {
   EXPECT_NEAR(Rivals::believed_share(all_), 0.25, 1e-12);
 }
 
+// A refuted belief that nothing may take over from: its rivals gain for as long as that lasts.
+TEST_F(RivalsTest, SharesOfAnyOddsAreNumbers) {
+  all_ = {{{5, 0, 0}, 5000.0}, {{9, 0, 0}, 5000.0}, {{13, 0, 0}, -5000.0}};
+  EXPECT_NEAR(Rivals::share(all_, 5000.0), 0.5, 1e-12);
+  EXPECT_EQ(Rivals::share(all_, -5000.0), 0.0);
+  EXPECT_EQ(Rivals::believed_share(all_), 0.0);
+}
+
+// What spoke for the rival speaks for the place that both are now, against all others.
+TEST_F(RivalsTest, ABeliefThatComesToARivalHasItsOdds) {
+  all_ = {{{0.1, 0, 0}, 50.0}, {{9, 0, 0}, 48.0}};
+  weigh(FitsThere({-50, 0, 0}, -0.1), 1);  // it fits equally badly everywhere
+  ASSERT_EQ(all_.size(), 1u);
+  EXPECT_EQ(all_[0].T_map_base.x, 9.0);
+  EXPECT_NEAR(all_[0].log_odds, -2.0, 1e-9);
+}
+
 TEST_F(RivalsTest, RivalsDriveAlong) {
   all_ = {{{5, 0, 1.5707963267948966}, 0.0}};
   Rivals::carry(all_, {1.0, 0.0, 0.0}, 2.0);

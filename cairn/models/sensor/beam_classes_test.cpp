@@ -27,6 +27,17 @@ TEST_F(BeamClasses, FromTheTruePoseTheMapExplainsAll) {
   EXPECT_NEAR(shares.fit, 0.0, 0.05);
 }
 
+// 12 cm off, all end within the tolerance, most of them beside their wall.
+TEST_F(BeamClasses, ResidualsAreOfExplainedBeamsOnly) {
+  EXPECT_LT(classifier_.classify(scan_, truth_).residual, 0.1);
+  const BeamShares beside = classifier_.classify(scan_, truth_ * Pose2{0.12, 0.0, 0.0});
+  EXPECT_NEAR(beside.explained, 1.0, 0.05);
+  EXPECT_GT(beside.residual, 0.2);
+  EXPECT_LE(beside.residual, 0.5 * 0.12 * 0.12 / 0.01 + 0.3);  // and what a cell rounds
+  for (float& range_m : scan_.ranges_m) range_m = 0.2f;
+  EXPECT_EQ(classifier_.classify(scan_, truth_).residual, 0.0);
+}
+
 TEST_F(BeamClasses, PeopleBlockBeamsButLetNoneThroughWalls) {
   // The box, 0.7 m away, is nearest of all that is mapped.
   for (std::size_t i = 0; i < 90; ++i) scan_.ranges_m[i] = std::min(scan_.ranges_m[i], 0.4f);

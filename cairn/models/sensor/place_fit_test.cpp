@@ -18,10 +18,11 @@ class PlaceFitTest : public testing::Test {
                                                    BeamLimits{}),
             walls_, Pose2{}, BeamLimits{}, options};
   }
-  double fit_with_every_fourth_range(float factor) {
+  double fit_with_every_fourth_range(float factor, const PlaceFitOptions& options) {
     scan_ = test::scan_of(map_, truth_, 180);
     for (std::size_t i = 0; i < 180; i += 4) scan_.ranges_m[i] *= factor;
-    return fit(truth_);
+    Pose2 place = truth_;
+    return make(options).follow(scan_, place);
   }
 
   OccupancyGrid map_ = test::mini_room();
@@ -38,7 +39,19 @@ TEST_F(PlaceFitTest, APlaceMovesToWhereTheScanFits) {
   EXPECT_LT(distance(place, truth_), 0.03);
   EXPECT_NEAR(place.theta, truth_.theta, 0.01);
   EXPECT_GE(fit_.follow(scan_, place), before);
-  EXPECT_NEAR(fit_.follow(scan_, place), 0.0, 0.15);  // half a cell is a residual, too
+  EXPECT_NEAR(make({.residual = 0.0}).follow(scan_, place), 0.0, 0.05);
+  EXPECT_NEAR(fit_.follow(scan_, place), 0.0, 0.1);  // half a cell is a residual, too
+}
+
+// Both explain all beams within the tolerance.
+TEST_F(PlaceFitTest, ResidualsTellPlacesApartThatExplainTheSameBeams) {
+  const auto off = [&](double residual) {
+    const PlaceFit fit = make({.reach_m = 1e-9, .reach_rad = 1e-9, .residual = residual});
+    Pose2 right = truth_, beside = truth_ * Pose2{0.12, 0.0, 0.0};
+    return fit.follow(scan_, right) - fit.follow(scan_, beside);
+  };
+  EXPECT_NEAR(off(0.0), 0.0, 0.05);
+  EXPECT_GT(off(1.5), 0.3);
 }
 
 TEST_F(PlaceFitTest, AWrongPlaceFitsWorse) { EXPECT_LT(fit({6.8, 1.2, 2.5}), fit(truth_) - 0.5); }
@@ -49,12 +62,17 @@ TEST_F(PlaceFitTest, PeopleSpoilTheTruePlaceLessThanWallsThatBeamsPassThrough) {
   EXPECT_LT(fit({6.8, 1.2, 2.5}), fit(truth_));
 }
 
-// A quarter of the beams, at 4 nat each beyond a wall and at 0.8 before it. Some that pass a wall end near
-// another one by chance.
-TEST_F(PlaceFitTest, ABeamThroughAWallCostsMoreThanOneThatIsBlocked) {
-  const double through = fit_with_every_fourth_range(1.5f), before = fit_with_every_fourth_range(0.5f);
-  EXPECT_LT(before, -0.8 * 0.25 * 0.8);
-  EXPECT_LT(through, 2.0 * before);
+// A quarter of the beams, at 4 nat each beyond a wall and at `blocked` before it. Some that pass a wall end
+// near another one by chance.
+TEST_F(PlaceFitTest, BeamsCostWhatTheirClassCosts) {
+  for (const double blocked : {0.25, 0.8}) {
+    const PlaceFitOptions options{.blocked = blocked, .residual = 0.0};
+    const double through = fit_with_every_fourth_range(1.5f, options);
+    const double before = fit_with_every_fourth_range(0.5f, options);
+    EXPECT_LT(before, -blocked * 0.25 * 0.8);
+    EXPECT_GT(before, -blocked * 0.25 * 1.05 - 0.05);
+    EXPECT_LT(through, -4.0 * 0.25 * 0.5);
+  }
 }
 
 TEST_F(PlaceFitTest, NoPlaceMovesToAWorseOne) {
