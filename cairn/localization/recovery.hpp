@@ -16,11 +16,11 @@ namespace cairn {
 struct RecoveryOptions {
   bool active = true;
   double doubt = 0.9;     ///< in doubt while the pose is right with less than this probability,
-  double drop = 0.12;     ///< and where the map explains by this share fewer beams than usual
+  double drop = 0.15;     ///< and where the map explains by this share fewer beams than usual
   double surprise = 0.3;  ///< a scan of which it explains by this less than of the last is worth an update
   double prior = 0.05;    ///< probability of being elsewhere when doubt begins, shared by what is found
   double news_m = 0.25;   ///< way after which a scan is news; one taken nearer to the last says less
-  double every_s = 0.5;   ///< time between two searches, doubled after each that finds nothing new
+  double every_s = 2.0;   ///< time between two searches, doubled after each that finds nothing new
   double at_most_every_s = 4.0;    ///< up to this
   int scans = 8;                   ///< of the last ones that may be joined
   double spacing_m = 0.2;          ///< those nearer to the one before than this ...
