@@ -20,8 +20,8 @@ std::uint32_t far_of(const GridGeometry& g, double max_distance_m) {
   return static_cast<std::uint32_t>(far);
 }
 
-std::vector<std::uint32_t> as_integers(const std::vector<double>& squared, std::uint32_t far) {
-  std::vector<std::uint32_t> result(squared.size());
+LargeVector<std::uint32_t> as_integers(const std::vector<double>& squared, std::uint32_t far) {
+  LargeVector<std::uint32_t> result(squared.size());
   std::transform(squared.begin(), squared.end(), result.begin(),
                  [&](double d) { return static_cast<std::uint32_t>(std::min<double>(d, far)); });
   return result;

@@ -1,12 +1,12 @@
 #pragma once
 
 #include "cairn/core/executor.hpp"
+#include "cairn/core/large_vector.hpp"
 #include "cairn/maps/occupancy_grid.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace cairn {
@@ -31,7 +31,9 @@ class DistanceField {
     return static_cast<float>(std::sqrt(static_cast<double>(squared)) * geometry_.resolution_m);
   }
   /// Squared distance in cells; at least `far()` where it is `max_distance_m` or more.
-  std::uint32_t squared_cells(std::size_t index) const { return narrow_ ? narrow_[index] : wide_[index]; }
+  std::uint32_t squared_cells(std::size_t index) const {
+    return wide_.empty() ? narrow_[index] : wide_[index];
+  }
   std::uint32_t far() const { return far_; }
 
   /// All distances, metres, row by row like the grid's cells. A copy: for looks, not for loops.
@@ -40,9 +42,9 @@ class DistanceField {
  private:
   GridGeometry geometry_;
   double max_distance_m_;
-  std::uint32_t far_;  ///< squared cells
-  std::unique_ptr<std::uint16_t[]> narrow_;
-  std::vector<std::uint32_t> wide_;
+  std::uint32_t far_;                  ///< squared cells
+  LargeVector<std::uint16_t> narrow_;  ///< one of the two
+  LargeVector<std::uint32_t> wide_;
 };
 
 }  // namespace cairn

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <memory>
 
 namespace cairn {
 namespace {
@@ -110,21 +111,21 @@ class Band {
 
 }  // namespace
 
-std::unique_ptr<std::uint16_t[]> truncated_squared_distances(const OccupancyGrid& grid, std::uint16_t far,
-                                                             const Executor& executor) {
+LargeVector<std::uint16_t> truncated_squared_distances(const OccupancyGrid& grid, std::uint16_t far,
+                                                       const Executor& executor) {
   CAIRN_ASSERT(far >= 1 && far <= kMostTruncationCells * kMostTruncationCells);
   const GridGeometry& g = grid.geometry();
   // The smallest whole number of cells whose square is not below `far`.
   auto cap = static_cast<int>(std::sqrt(static_cast<double>(far)));
   while (cap * cap < far) ++cap;
   const auto width = static_cast<std::size_t>(g.width);
-  auto squared = std::make_unique_for_overwrite<std::uint16_t[]>(g.size());
+  LargeVector<std::uint16_t> squared(g.size());
   executor.for_each_chunk(static_cast<std::size_t>(g.height), kRowsPerBand,
                           [&](std::size_t begin, std::size_t end) {
                             const Band band(grid, begin, end, static_cast<std::uint8_t>(cap));
                             RowPass pass(width, far, static_cast<std::uint8_t>(cap));
                             for (std::size_t row = begin; row < end; ++row)
-                              pass.transform(band.row(row), squared.get() + row * width);
+                              pass.transform(band.row(row), squared.data() + row * width);
                           });
   return squared;
 }

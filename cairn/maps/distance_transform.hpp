@@ -1,10 +1,10 @@
 #pragma once
 
 #include "cairn/core/executor.hpp"
+#include "cairn/core/large_vector.hpp"
 #include "cairn/maps/occupancy_grid.hpp"
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace cairn {
@@ -24,7 +24,7 @@ inline constexpr int kMostTruncationCells = 255;
 /// the processor; threads of `executor` change no value.
 /// @param far squared cells, 1 to kMostTruncationCells^2
 /// @returns `grid.geometry().size()` values, row by row
-std::unique_ptr<std::uint16_t[]> truncated_squared_distances(const OccupancyGrid& grid, std::uint16_t far,
-                                                             const Executor& executor);
+LargeVector<std::uint16_t> truncated_squared_distances(const OccupancyGrid& grid, std::uint16_t far,
+                                                       const Executor& executor);
 
 }  // namespace cairn

@@ -59,7 +59,7 @@ std::size_t LeastCostWindows::place(int column, int row) const {
 }
 
 LeastCostWindows::Windows LeastCostWindows::quantised() const {
-  Windows windows{1, std::vector<std::uint8_t>(place(box_.columns + kMargin, box_.rows + kMargin), kMost)};
+  Windows windows{1, LargeVector<std::uint8_t>(place(box_.columns + kMargin, box_.rows + kMargin), kMost)};
   for (int row = 0; row < box_.rows; ++row) {
     for (int column = 0; column < box_.columns; ++column) {
       const double steps = std::floor(cost(column, row) / cost_per_step_);
@@ -71,7 +71,7 @@ LeastCostWindows::Windows LeastCostWindows::quantised() const {
 
 // The least of four windows that overlap: their corners are those of the larger one.
 LeastCostWindows::Windows LeastCostWindows::pooled(const Windows& smaller, int size) const {
-  Windows windows{size, std::vector<std::uint8_t>(smaller.steps.size(), kMost)};
+  Windows windows{size, LargeVector<std::uint8_t>(smaller.steps.size(), kMost)};
   const int shift = size - smaller.size;
   const auto count = whole(box_.columns + size);
   const auto right = static_cast<std::size_t>(shift);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cairn/core/large_vector.hpp"
 #include "cairn/maps/distance_field.hpp"
 #include "cairn/models/sensor/likelihood_field.hpp"
 
@@ -66,7 +67,7 @@ class LeastCostWindows {
     int shift_ = 0;   ///< log2 of the stride
     std::size_t row_step_ = 0;
     std::size_t phase_size_ = 0;
-    std::vector<std::uint8_t> steps_;
+    LargeVector<std::uint8_t> steps_;
   };
 
   /// The planes of a tier, the smallest windows first.
@@ -84,7 +85,7 @@ class LeastCostWindows {
   /// Steps of windows row by row, with the margin that the largest of them need.
   struct Windows {
     int size;
-    std::vector<std::uint8_t> steps;
+    LargeVector<std::uint8_t> steps;
   };
 
   std::size_t place(int column, int row) const;
@@ -96,7 +97,7 @@ class LeastCostWindows {
   double least_;
   double cost_per_step_;
   float far_;
-  std::vector<float> costs_;
+  LargeVector<float> costs_;
   std::array<std::vector<Plane>, kTiers> tiers_;
 };
 

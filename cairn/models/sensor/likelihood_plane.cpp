@@ -75,7 +75,7 @@ LikelihoodPlane::LikelihoodPlane(const DistanceField& field, Codes codes,
 
 template <class Code>
 void LikelihoodPlane::fill(const DistanceField& field, const std::function<double(double)>& log_likelihood,
-                           std::vector<Code>& codes) {
+                           LargeVector<Code>& codes) {
   const CodeOfDistance code_of(field, log_likelihood, best_, step_);
   const Code worst = step_ > 0.0 ? std::numeric_limits<Code>::max() : Code{0};
   codes.assign(std::size_t{columns_} * rows_, worst);

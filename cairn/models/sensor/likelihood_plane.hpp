@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cairn/core/large_vector.hpp"
 #include "cairn/core/pose2.hpp"
 #include "cairn/maps/distance_field.hpp"
 #include "cairn/models/sensor/likelihood_plane_kernels.hpp"
@@ -65,7 +66,7 @@ class LikelihoodPlane {
   void put_in_cells(std::span<const Pose2> states, PoseBlock& block) const;
   template <class Code>
   void fill(const DistanceField& field, const std::function<double(double)>& log_likelihood,
-            std::vector<Code>& codes);
+            LargeVector<Code>& codes);
 
   Pose2 T_grid_map_;
   double cells_per_m_;
@@ -73,8 +74,8 @@ class LikelihoodPlane {
   std::uint32_t rows_;
   double best_ = 0.0;
   double step_ = 0.0;
-  std::vector<std::uint8_t> narrow_;
-  std::vector<std::uint16_t> wide_;
+  LargeVector<std::uint8_t> narrow_;
+  LargeVector<std::uint16_t> wide_;
 };
 
 }  // namespace cairn
