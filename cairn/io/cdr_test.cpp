@@ -56,7 +56,9 @@ TEST_P(CdrByteOrder, ReadsWhatWasWritten) {
 TEST_P(CdrByteOrder, ANaNKeepsItsBits) {
   const auto nan = std::bit_cast<float>(0x7fc12345U);
   const std::vector<float> values{nan};
-  Reader reader(Writer(GetParam()).numbers(std::span<const float>(values)).bytes());
+  Writer writer(GetParam());
+  writer.numbers(std::span<const float>(values));
+  Reader reader(writer.bytes());
   EXPECT_EQ(std::bit_cast<std::uint32_t>(reader.numbers<float>().at(0)), 0x7fc12345U);
 }
 

@@ -35,7 +35,7 @@ inline void clip(double from, double direction, double low, double high, double&
 struct ExactAxis {
   ExactAxis(double from, double direction, double origin, double cell_m, int count, double enter) {
     const double at = (from + enter * direction - origin) / cell_m;
-    index = std::clamp(static_cast<int>(at), 0, count - 1);
+    index = static_cast<int>(std::clamp(at, 0.0, count - 1.0));
     step = direction > 0.0 ? 1 : -1;
     end = direction > 0.0 ? count : -1;
     next = direction == 0.0 ? kInfinity
@@ -55,7 +55,7 @@ RayHit cast_ray(const WallGrid& grid, const Point2& o, const Point2& u, double m
   const Point2& corner = grid.origin();
   clip(o.x, u.x, corner.x, corner.x + grid.columns() * grid.cell_m(), enter, leave);
   clip(o.y, u.y, corner.y, corner.y + grid.rows() * grid.cell_m(), enter, leave);
-  if (!(enter <= leave) || !std::isfinite(u.x + u.y + enter)) return {};
+  if (!(enter <= leave) || !std::isfinite(o.x + o.y + u.x + u.y + enter)) return {};
   ExactAxis x(o.x, u.x, corner.x, grid.cell_m(), grid.columns(), enter);
   ExactAxis y(o.y, u.y, corner.y, grid.cell_m(), grid.rows(), enter);
   for (;;) {

@@ -90,6 +90,7 @@ TEST(RayCasting, WhatIsNotFiniteMeetsNothing) {
   }
   EXPECT_FALSE(cast_ray(grid, {1, 1}, {1, 0}, nan));
   EXPECT_FALSE(cast_ray(grid, {1, 1}, {1, 0}, -1.0));
+  EXPECT_GE(cast_ray(grid, {1e300, 1}, {-1, 0}).range_m, 0.0);
 }
 
 TEST(WallGrid, StaysSmallForMapsOfAnySize) {
