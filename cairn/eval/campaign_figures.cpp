@@ -3,14 +3,18 @@
 #include "cairn/eval/svg_plot.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
+#include <sstream>
 
 namespace cairn {
 namespace {
 
-constexpr double kBright_m = 0.5;
+// The brightest colour of an error map: the first that hardly an error exceeds.
+constexpr std::array kBright_m = {0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0};
+constexpr double kDarker = 0.99;  // share of the errors
 constexpr double kLost_m = 1.0;
 constexpr double kShownQuantiles = 0.03;  // of the distributions: the tails would press the rest together
 constexpr int kTimeSteps = 100;
@@ -47,9 +51,15 @@ std::vector<const ErrorTrace*> traces_of(const CampaignReport& report, const std
   return traces;
 }
 
+// @param points  with their errors, the smallest first
+double bright_for(const std::vector<std::pair<double, SvgPoint>>& points) {
+  if (points.empty()) return kBright_m.back();
+  const auto place = static_cast<std::size_t>(kDarker * static_cast<double>(points.size() - 1));
+  const auto bright = std::lower_bound(kBright_m.begin(), kBright_m.end(), points[place].first);
+  return bright == kBright_m.end() ? kBright_m.back() : *bright;
+}
+
 SvgPlot error_map(const CampaignReport& report, const std::string& input) {
-  SvgPlot plot{
-      report.baseline + ": error, dark 0 to bright 0.5 m", {"x [m]"}, {"y [m]"}, true, {{"", {}, true, {}}}};
   const auto traces = traces_of(report, input, report.baseline);
   std::size_t total = 0;
   for (const ErrorTrace* trace : traces) total += trace->t_s.size();
@@ -62,9 +72,13 @@ SvgPlot error_map(const CampaignReport& report, const std::string& input) {
   // The large errors last, on top of the others.
   std::stable_sort(points.begin(), points.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
+  const double bright_m = bright_for(points);
+  std::ostringstream title;
+  title << report.baseline << ": error, dark 0 to bright " << bright_m << " m";
+  SvgPlot plot{title.str(), {"x [m]"}, {"y [m]"}, true, {{"", {}, true, {}}}};
   for (const auto& [error, point] : points) {
     plot.series[0].points.push_back(point);
-    plot.series[0].shades.push_back(error / kBright_m);
+    plot.series[0].shades.push_back(std::min(1.0, error / bright_m));
   }
   return plot;
 }

@@ -12,6 +12,7 @@
 namespace cairn {
 namespace {
 
+constexpr std::uint64_t kMostStarts = 10'000;  // drawn until one can be reached
 constexpr const char* kPointsKey = "robot.points";
 constexpr Duration kRandomDrive = std::chrono::seconds(60);
 constexpr double kReached_m = 0.1;
@@ -85,11 +86,12 @@ std::vector<Point2> straight_way(const World& world, const Point2& from, const s
 }
 
 // Far more than a drive of any duration can reach are not needed: ten a minute.
-std::vector<Point2> random_points(const World& world, Duration duration, std::uint64_t seed) {
+std::vector<Point2> random_points(const World& world, const Pose2& start, Duration duration,
+                                  std::uint64_t seed) {
   const auto& free = world.planner.free_points();
   const auto count = static_cast<std::size_t>(2.0 + to_seconds(duration) / 6.0);
   std::vector<Point2> points;
-  Point2 at{world.start.x, world.start.y};
+  Point2 at{start.x, start.y};
   for (std::uint64_t step = 0; points.size() < count && step < 20 * count; ++step) {
     const double u = simulation_random(seed, SimulationUse::kMission, step).uniform(0);
     const Point2& point =
@@ -99,6 +101,24 @@ std::vector<Point2> random_points(const World& world, Duration duration, std::ui
     at = point;
   }
   return points;
+}
+
+// Where the robot begins, by its options.
+Pose2 beginning(const World& world, std::uint64_t seed) {
+  const WorldRobotOptions& robot = world.options.robot;
+  if (!robot.random_start) return world.start;
+  if (robot.mission != "random")
+    throw ConfigurationError("robot.random_start", "goes with a random mission only",
+                             "set robot.mission: random");
+  const auto& free = world.planner.free_points();
+  for (std::uint64_t step = 0; step < kMostStarts; ++step) {
+    const RandomStream random = simulation_random(seed, SimulationUse::kStart, step);
+    const double u = random.uniform(0) * static_cast<double>(free.size());
+    const Point2& point = free[std::min(free.size() - 1, static_cast<std::size_t>(u))];
+    if (world.planner.joins({world.start.x, world.start.y}, point))
+      return {point.x, point.y, normalize_angle(kTwoPi * random.uniform(1))};
+  }
+  return world.start;  // there is hardly any place but this
 }
 
 // Ends of the free stretches of lanes along x, there and back.
@@ -129,9 +149,10 @@ std::vector<Point2> coverage_points(const World& world) {
   return points;
 }
 
-std::vector<Point2> mission_points(const World& world, Duration duration, std::uint64_t seed) {
+std::vector<Point2> mission_points(const World& world, const Pose2& start, Duration duration,
+                                   std::uint64_t seed) {
   const WorldRobotOptions& robot = world.options.robot;
-  if (robot.mission == "random") return random_points(world, duration, seed);
+  if (robot.mission == "random") return random_points(world, start, duration, seed);
   if (robot.mission == "coverage") return coverage_points(world);
   std::vector<Point2> points = parse_points(kPointsKey, robot.points);
   if (points.empty()) throw ConfigurationError(kPointsKey, "is empty", "write x,y separated by blanks");
@@ -244,10 +265,11 @@ RobotDrive drive_mission(const World& world, std::uint64_t seed) {
   Duration duration = duration_from_seconds(robot.duration_s);
   if (robot.mission == "random" && duration == Duration::zero()) duration = kRandomDrive;
   check_free(world, {world.start.x, world.start.y}, "robot.start");
-  const std::vector<Point2> points = mission_points(world, duration, seed);
+  const Pose2 start = beginning(world, seed);
+  const std::vector<Point2> points = mission_points(world, start, duration, seed);
   const std::vector<Point2> way =
-      way_from(world, {world.start.x, world.start.y}, points, robot.mission == "polyline", duration);
-  RobotDrive driven{drive(world, world.start, way, duration), 0};
+      way_from(world, {start.x, start.y}, points, robot.mission == "polyline", duration);
+  RobotDrive driven{drive(world, start, way, duration), 0};
   kidnap(world, points, driven);
   return driven;
 }

@@ -88,6 +88,19 @@ TEST(Mission, RandomDrivesDifferBySeedOnly) {
   EXPECT_EQ(drive.truth.back().stamp, time_from_seconds(60.0));
 }
 
+TEST(Mission, ARandomDriveBeginsAnywhereIfAsked) {
+  const auto anywhere = [](WorldOptions& o) {
+    o.robot.mission = "random";
+    o.robot.random_start = true;
+  };
+  const Trajectory first = driven(anywhere, 1).truth, second = driven(anywhere, 2).truth;
+  EXPECT_EQ(first, driven(anywhere, 1).truth);
+  EXPECT_GT(distance(first.front().pose, second.front().pose), 0.01);
+  EXPECT_NE(first.front().pose.theta, second.front().pose.theta);
+  EXPECT_EQ(first.front().stamp, Time{});
+  EXPECT_EQ(refusal([](WorldOptions& o) { o.robot.random_start = true; }), "robot.random_start");
+}
+
 TEST(Mission, CoverageComesNearEverything) {
   const Trajectory truth = driven([](WorldOptions& o) {
                              o.robot.mission = "coverage";

@@ -29,6 +29,7 @@ enum class SimulationUse : std::uint8_t {
   kGyroscopeBias = 18,
   kGyroscopeNoise = 19,
   kShadowing = 20,
+  kStart = 21,
 };
 
 /// Random numbers of one use, at one step of it (a scan, an odometry increment).

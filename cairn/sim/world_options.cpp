@@ -132,6 +132,9 @@ void WorldRobotOptions::visit(OptionVisitor& v) {
   v.choice({"drive", "differential turns on the spot; omnidirectional also moves sideways"}, drive,
            {"differential", "omnidirectional"});
   v.text({"start", "x,y,yaw"}, start);
+  v.flag(
+      {"random_start", "A random mission begins anywhere that can be reached from `start`, looking anywhere"},
+      random_start);
   v.choice(
       {"mission",
        "waypoints: planned around walls; polyline: straight through the points; random; coverage; recorded: "

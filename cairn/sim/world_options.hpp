@@ -92,6 +92,7 @@ struct WorldOdometryOptions {
 struct WorldRobotOptions {
   std::string drive = "differential";  ///< or omnidirectional
   std::string start = "0,0,0";
+  bool random_start = false;  ///< a random mission begins anywhere that can be reached from `start`
   std::string mission =
       "waypoints";       ///< waypoints (planned), polyline (as given), random, coverage, recorded
   std::string points;    ///< of waypoints and polyline
