@@ -188,7 +188,7 @@ void PoseBelief::recover(const StreamModel& model, const Event& event, const Pos
   if (model.informs(event.payload))
     recovery_->observe(memory, event.stream, model, event.payload, believed, in_doubt);
   recovery_->search(memory, model, event.stamp, believed);
-  if (recovery_->take_over(memory, believed, *filter_)) {
+  if (recovery_->take_over(memory, believed, right, *filter_)) {
     summarize({}, 0.0);
     state_.pose = state_.updated.T_map_base;
     state_.updated.quality = model.explained_share(event.payload, state_.updated.T_map_base);

@@ -70,6 +70,8 @@ void RecoveryOptions::visit(OptionVisitor& v) {
            {0.01, 1e5});
   v.number({"rival_most", "a scan never speaks more than this against a place, nat"}, rival_most, {0.0, 1e3});
   v.number({"accept", "log-odds at which a rival takes over"}, accept, {0.0, 1e3});
+  v.number({"sure", "and so much more while the pose is right with more than the probability `doubt`"}, sure,
+           {0.0, 1e3});
   v.number({"share", "with this probability among all places"}, share, {0.0, 1.0});
   v.number({"hopeless", "or with these log-odds, if it is one of two or three"}, hopeless, {0.0, 1e3});
   v.integer({"confirm", "and weighed by so many scans since it was found"}, confirm, {0, 1000});
@@ -151,9 +153,11 @@ Eigen::Matrix3d Recovery::spread() {
       .asDiagonal();
 }
 
-bool Recovery::take_over(RecoveryMemory& memory, const Pose2& believed, PoseFilter& filter) const {
+bool Recovery::take_over(RecoveryMemory& memory, const Pose2& believed, double right,
+                         PoseFilter& filter) const {
+  const double accept = options_.accept + (right >= options_.doubt ? options_.sure : 0.0);
   Rival* const strongest = Rivals::strongest(memory.rivals, options_.confirm);
-  if (strongest == nullptr || strongest->log_odds < options_.accept) return false;
+  if (strongest == nullptr || strongest->log_odds < accept) return false;
   const double probability = Rivals::share(memory.rivals, strongest->log_odds);
   const bool best_of_few = strongest->log_odds >= options_.hopeless && probability >= kBestOfFew;
   if (probability < options_.share && !best_of_few) return false;

@@ -33,6 +33,7 @@ struct RecoveryOptions {
   double rival_beams = 10.0;       ///< as laser.effective_beams, for a scan that rivals are weighed by
   double rival_most = 10.0;        ///< a scan never speaks more than this against a place, nat
   double accept = 4.0;             ///< log-odds at which a rival takes over ...
+  double sure = 8.0;               ///< (so many more where the monitor has no doubt: a crowd, as a rule)
   double share = 0.9;              ///< with this probability among all places, or against a belief that
   double hopeless = 10.0;          ///< has lost by so much that the best of two or three is better,
   int confirm = 1;                 ///< and weighed by so many scans since it was found
@@ -94,7 +95,8 @@ class Recovery {
   static Eigen::Matrix3d spread();
   /// Lets a rival that has won take over: it enters the filter with its share of the belief. False if none
   /// has.
-  bool take_over(RecoveryMemory& memory, const Pose2& believed, PoseFilter& filter) const;
+  /// @param right  probability that the pose is right, by the monitor
+  bool take_over(RecoveryMemory& memory, const Pose2& believed, double right, PoseFilter& filter) const;
 
  private:
   void remember(RecoveryMemory& memory, StreamId stream, const Event::Payload& z, bool in_doubt) const;

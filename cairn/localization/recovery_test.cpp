@@ -57,7 +57,7 @@ class RecoveryTest : public testing::Test {
     memory_ = {};
     observe(model, 1.0, true);
     recovery_.search(memory_, model, at(1.0), {});
-    return recovery_.take_over(memory_, {}, filter_);
+    return recovery_.take_over(memory_, {}, 0.5, filter_);
   }
 
   Recovery recovery_{RecoveryOptions{.active = true,
@@ -97,31 +97,39 @@ TEST_F(RecoveryTest, AWinnerIsToBeConfirmedByFurtherScans) {
   const FoundElsewhere model(2.9);
   observe(model, 1.0, true);
   recovery.search(memory_, model, at(1.0), {});
-  EXPECT_FALSE(recovery.take_over(memory_, {}, filter_));
+  EXPECT_FALSE(recovery.take_over(memory_, {}, 0.5, filter_));
   for (Rival& rival : memory_.rivals) rival.scans = 2;
-  EXPECT_TRUE(recovery.take_over(memory_, {}, filter_));
+  EXPECT_TRUE(recovery.take_over(memory_, {}, 0.5, filter_));
 }
 
 // A symmetric building: to choose one of two places would be wrong every other time.
 TEST_F(RecoveryTest, WhereTwoPlacesFitAlikeNoneTakesOver) {
   memory_.rivals = {{{5, 0, 0}, 6.0}, {{9, 0, 0}, 6.0}};
-  EXPECT_FALSE(recovery_.take_over(memory_, {}, filter_));
+  EXPECT_FALSE(recovery_.take_over(memory_, {}, 0.5, filter_));
   memory_.rivals[1].log_odds = 3.0;
-  EXPECT_TRUE(recovery_.take_over(memory_, {}, filter_));
+  EXPECT_TRUE(recovery_.take_over(memory_, {}, 0.5, filter_));
 }
 
 // ... but both are better than a belief that is refuted; the other one stays a rival.
 TEST_F(RecoveryTest, OneOfTwoPlacesTakesOverFromAHopelessBelief) {
   memory_.rivals = {{{5, 0, 0}, 12.0}, {{9, 0, 0}, 12.0}};
-  EXPECT_TRUE(recovery_.take_over(memory_, {}, filter_));
+  EXPECT_TRUE(recovery_.take_over(memory_, {}, 0.5, filter_));
   EXPECT_NEAR(Rivals::believed_share(memory_.rivals), 0.5, 1e-4);
+}
+
+// A crowd: what the map does not explain is no sign of a wrong place, and another one may well explain it.
+TEST_F(RecoveryTest, WhereTheMonitorHasNoDoubtItTakesMore) {
+  memory_.rivals = {{{5, 0, 0}, 8.4}};
+  EXPECT_FALSE(recovery_.take_over(memory_, {}, 0.95, filter_));
+  memory_.rivals[0].log_odds = 8.6;  // accept 0.5 and sure 8
+  EXPECT_TRUE(recovery_.take_over(memory_, {}, 0.95, filter_));
 }
 
 TEST_F(RecoveryTest, OneOfManyPlacesDoesNot) {
   for (const double log_odds : {12.0, 5000.0}) {
     memory_.rivals.clear();
     for (int i = 0; i < 4; ++i) memory_.rivals.push_back({{5.0 + 3.0 * i, 0, 0}, log_odds});
-    EXPECT_FALSE(recovery_.take_over(memory_, {}, filter_));
+    EXPECT_FALSE(recovery_.take_over(memory_, {}, 0.5, filter_));
   }
 }
 
