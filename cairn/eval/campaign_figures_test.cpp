@@ -44,6 +44,18 @@ TEST(CampaignFigures, OnePictureForEachInput) {
   EXPECT_THAT(figures[0].svg, HasSubstr(">cgr</text>"));
 }
 
+// Each run errs by `error` and twice that.
+TEST(CampaignFigures, TheColoursOfTheErrorMapReachAsFarAsTheErrors) {
+  Campaign campaign;
+  campaign.baseline = "mcl";
+  const auto map_of = [&](double error) {
+    return campaign_figures(report_of(campaign, {run("mcl", 1, error)}))[0].svg;
+  };
+  EXPECT_THAT(map_of(0.02), HasSubstr("dark 0 to bright 0.05 m"));
+  EXPECT_THAT(map_of(0.15), HasSubstr("dark 0 to bright 0.2 m"));
+  EXPECT_THAT(map_of(50.0), HasSubstr("dark 0 to bright 10 m"));
+}
+
 TEST(CampaignFigures, SetsOfParametersMakeACurveOfCost) {
   std::vector<CellResult> results;
   for (const char* recipe : {"mcl", "cgr"}) {

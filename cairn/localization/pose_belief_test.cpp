@@ -22,9 +22,28 @@ class PoseBeliefTest : public test::MonteCarloLocalizerTest {
     const Estimate& last = estimates_.back();
     return distance(last.T_map_base, on_circle(start, to_seconds(last.stamp)));
   }
+  // On a circle, and after 5 s on another one.
+  void carry_away() {
+    for (int i = 0; i < 400; ++i) {
+      const double seconds = 0.05 * i;
+      const bool carried = seconds > 5.0;
+      odometry(seconds);
+      if (i % 4 != 0) continue;
+      const Pose2 truth = on_circle(carried ? kElsewhere : kStart, seconds + 0.013);
+      localizer_->process(test::scan_event(test::scan_from(map_, truth, at(seconds + 0.013))));
+      const HypothesisSnapshot known = localizer_->hypotheses();
+      const bool has_rivals = std::any_of(known.hypotheses.begin(), known.hypotheses.end(),
+                                          [](const Hypothesis& h) { return h.id >= kFirstRival; });
+      (carried ? rivals_after_ : rivals_before_) |= has_rivals;
+    }
+    localizer_->finish();
+  }
   static bool claims_to_know(const Estimate& e) {
     return e.judgement.state == TrackingState::kTracking || e.judgement.state == TrackingState::kCrowded;
   }
+
+  const Pose2 kElsewhere = kStart * Pose2{1.5, 1.0, 2.0};
+  bool rivals_before_ = false, rivals_after_ = false;
 };
 
 // Every second the robot has a new look; the eighth comes after seven seconds.
@@ -45,28 +64,30 @@ TEST_F(PoseBeliefTest, ARobotThatMayBeAnywhereClaimsLittleUntilASearchConfirmsIt
 }
 
 TEST_F(PoseBeliefTest, ARobotThatIsCarriedAwayHasRivalsAndIsFoundAgain) {
-  const Pose2 elsewhere = kStart * Pose2{1.5, 1.0, 2.0};
-  LocalizerOptions options;
-  options.recovery.active = true;
-  make(options);
-  bool rivals_before = false, rivals_after = false;
-  for (int i = 0; i < 400; ++i) {
-    const double seconds = 0.05 * i;
-    const bool carried = seconds > 5.0;
-    odometry(seconds);
-    if (i % 4 != 0) continue;
-    const Pose2 truth = on_circle(carried ? elsewhere : kStart, seconds + 0.013);
-    localizer_->process(test::scan_event(test::scan_from(map_, truth, at(seconds + 0.013))));
-    const HypothesisSnapshot known = localizer_->hypotheses();
-    const bool has_rivals = std::any_of(known.hypotheses.begin(), known.hypotheses.end(),
-                                        [](const Hypothesis& h) { return h.id >= kFirstRival; });
-    (carried ? rivals_after : rivals_before) |= has_rivals;
-  }
-  localizer_->finish();
-  EXPECT_FALSE(rivals_before);
-  EXPECT_TRUE(rivals_after);
-  EXPECT_LT(error_at_the_end(elsewhere), 0.15);
+  make(LocalizerOptions{});
+  carry_away();
+  EXPECT_FALSE(rivals_before_);
+  EXPECT_TRUE(rivals_after_);
+  EXPECT_LT(error_at_the_end(kElsewhere), 0.15);
   EXPECT_TRUE(claims_to_know(estimates_.back()));
+}
+
+TEST_F(PoseBeliefTest, NoEvidenceNeedBeAddedWhereTheMonitorDoubts) {
+  LocalizerOptions options;
+  options.recovery.sure = 1000.0;
+  make(options);
+  carry_away();
+  EXPECT_LT(error_at_the_end(kElsewhere), 0.15);
+}
+
+TEST_F(PoseBeliefTest, NoRivalTakesOverFromAMonitorThatNeverDoubts) {
+  LocalizerOptions options;
+  options.recovery.sure = 1000.0;
+  options.recovery.doubt = 0.0;
+  make(options);
+  carry_away();
+  EXPECT_TRUE(rivals_after_);
+  EXPECT_GT(error_at_the_end(kElsewhere), 0.5);
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ void RecoveryOptions::visit(OptionVisitor& v) {
            {0.01, 1e5});
   v.number({"rival_most", "a scan never speaks more than this against a place, nat"}, rival_most, {0.0, 1e3});
   v.number({"accept", "log-odds at which a rival takes over"}, accept, {0.0, 1e3});
-  v.number({"sure", "and so much more while the pose is right with more than the probability `doubt`"}, sure,
+  v.number({"sure", "and so much more while the pose is right with at least the probability `doubt`"}, sure,
            {0.0, 1e3});
   v.number({"share", "with this probability among all places"}, share, {0.0, 1.0});
   v.number({"hopeless", "or with these log-odds, if it is one of two or three"}, hopeless, {0.0, 1e3});

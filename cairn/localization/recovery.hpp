@@ -32,8 +32,8 @@ struct RecoveryOptions {
   double millions_of_points = 30;  ///< a search looks up at most this many million end points
   double rival_beams = 10.0;       ///< as laser.effective_beams, for a scan that rivals are weighed by
   double rival_most = 10.0;        ///< a scan never speaks more than this against a place, nat
-  double accept = 4.0;             ///< log-odds at which a rival takes over ...
-  double sure = 8.0;               ///< (so many more where the monitor has no doubt: a crowd, as a rule)
+  double accept = 4.0;             ///< log-odds at which a rival takes over
+  double sure = 8.0;               ///< (and so many more while the pose is right with at least `doubt`),
   double share = 0.9;              ///< with this probability among all places, or against a belief that
   double hopeless = 10.0;          ///< has lost by so much that the best of two or three is better,
   int confirm = 1;                 ///< and weighed by so many scans since it was found

@@ -107,9 +107,6 @@ std::vector<Point2> random_points(const World& world, const Pose2& start, Durati
 Pose2 beginning(const World& world, std::uint64_t seed) {
   const WorldRobotOptions& robot = world.options.robot;
   if (!robot.random_start) return world.start;
-  if (robot.mission != "random")
-    throw ConfigurationError("robot.random_start", "goes with a random mission only",
-                             "set robot.mission: random");
   const auto& free = world.planner.free_points();
   for (std::uint64_t step = 0; step < kMostStarts; ++step) {
     const RandomStream random = simulation_random(seed, SimulationUse::kStart, step);
@@ -118,7 +115,8 @@ Pose2 beginning(const World& world, std::uint64_t seed) {
     if (world.planner.joins({world.start.x, world.start.y}, point))
       return {point.x, point.y, normalize_angle(kTwoPi * random.uniform(1))};
   }
-  return world.start;  // there is hardly any place but this
+  throw ConfigurationError("robot.random_start", "finds hardly a place that can be reached from robot.start",
+                           "move robot.start into the part of the building that the robot is to drive in");
 }
 
 // Ends of the free stretches of lanes along x, there and back.
@@ -261,6 +259,9 @@ RobotDrive drive_recorded(const World& world) {
 
 RobotDrive drive_mission(const World& world, std::uint64_t seed) {
   const WorldRobotOptions& robot = world.options.robot;
+  if (robot.random_start && robot.mission != "random")
+    throw ConfigurationError("robot.random_start", "goes with a random mission only",
+                             "set robot.mission: random");
   if (robot.mission == "recorded") return drive_recorded(world);
   Duration duration = duration_from_seconds(robot.duration_s);
   if (robot.mission == "random" && duration == Duration::zero()) duration = kRandomDrive;
