@@ -20,6 +20,7 @@ constexpr double kRepulsion_mps2 = 4.0;
 constexpr double kReach_m = 0.3;
 constexpr double kFastest = 1.3;  // times the wished speed
 constexpr double kThere_m = 0.4;
+constexpr int kDirections = 64;  // tried around the robot
 
 Point2 operator+(const Point2& a, const Point2& b) { return {a.x + b.x, a.y + b.y}; }
 Point2 operator-(const Point2& a, const Point2& b) { return {a.x - b.x, a.y - b.y}; }
@@ -45,7 +46,11 @@ const Point2& pick(const std::vector<Point2>& points, double u) {
 
 class Walk {
  public:
-  Walk(const World& world, std::uint64_t seed) : world_(world), seed_(seed), options_(world.options.people) {
+  Walk(const World& world, const Point2& robot, std::uint64_t seed)
+      : world_(world),
+        seed_(seed),
+        options_(world.options.people),
+        touching_m_(options_.radius_m + world.options.robot.radius_m) {
     for (int i = 0; i < options_.walking; ++i) {
       const auto n =
           simulation_random(seed, SimulationUse::kWalking, 0).normal4(static_cast<std::uint32_t>(i));
@@ -53,6 +58,7 @@ class Walk {
           simulation_random(seed, SimulationUse::kWalking, 0).uniform4(static_cast<std::uint32_t>(i), 1);
       const double speed = options_.speed_mps * std::clamp(1.0 + 0.2 * n[0], 0.5, 1.5);
       walkers_.push_back({pick(world.planner.free_points(), u[0]), {}, speed, {}, 0});
+      make_room(walkers_.back(), robot);
     }
   }
 
@@ -60,7 +66,10 @@ class Walk {
     for (std::size_t i = 0; i < walkers_.size(); ++i) choose_goal(i);
     std::vector<Point2> forces;
     for (std::size_t i = 0; i < walkers_.size(); ++i) forces.push_back(force_on(i, robot));
-    for (std::size_t i = 0; i < walkers_.size(); ++i) move(walkers_[i], forces[i]);
+    for (std::size_t i = 0; i < walkers_.size(); ++i) {
+      move(walkers_[i], forces[i]);
+      make_room(walkers_[i], robot);
+    }
   }
 
   std::vector<Point2> positions() const {
@@ -91,7 +100,7 @@ class Walk {
     for (std::size_t k = 0; k < walkers_.size(); ++k) {
       if (k != i) force = force + repulsion(walker.position, walkers_[k].position, 2.0 * options_.radius_m);
     }
-    return force + repulsion(walker.position, robot, options_.radius_m + world_.options.robot.radius_m);
+    return force + repulsion(walker.position, robot, touching_m_);
   }
 
   static Point2 repulsion(const Point2& at, const Point2& from, double touching_m) {
@@ -119,9 +128,26 @@ class Walk {
     }
   }
 
+  // Nobody is inside the robot: the force alone lets it drive into who cannot give way fast enough. Who is
+  // touched goes to the nearest place beside the robot that is free, and stays only if none is.
+  void make_room(Walker& walker, const Point2& robot) const {
+    const Point2 away = walker.position - robot;
+    if (length(away) >= touching_m_) return;
+    const double straight = std::atan2(away.y, away.x);
+    for (int i = 0; i <= kDirections; ++i) {
+      const double turned = 2.0 * std::numbers::pi / kDirections * ((i + 1) / 2);
+      const double angle = straight + (i % 2 == 0 ? turned : -turned);
+      const Point2 beside = robot + touching_m_ * Point2{std::cos(angle), std::sin(angle)};
+      if (!world_.planner.is_free(beside)) continue;
+      walker.position = beside;
+      return;
+    }
+  }
+
   const World& world_;
   std::uint64_t seed_;
   WorldPeopleOptions options_;
+  double touching_m_;
   std::vector<Walker> walkers_;
 };
 
@@ -152,12 +178,15 @@ void People::place_standing(const World& world, const Trajectory& robot, std::ui
 
 void People::walk(const World& world, const Trajectory& robot, std::uint64_t seed) {
   if (options_.walking == 0) return;
-  Walk walk(world, seed);
   const double end_s = to_seconds(robot.back().stamp);
+  const auto robot_at = [&](double t) {
+    const auto pose = pose_at(robot, Time{} + duration_from_seconds(std::min(t, end_s)));
+    return Point2{pose->x, pose->y};
+  };
+  Walk walk(world, robot_at(0.0), seed);
   for (double t = 0.0; t <= end_s + kFrame_s; t += kFrame_s) {
     frames_.push_back(walk.positions());
-    const auto pose = pose_at(robot, Time{} + duration_from_seconds(std::min(t, end_s)));
-    for (int i = 0; i < kStepsPerFrame; ++i) walk.step({pose->x, pose->y});
+    for (int i = 1; i <= kStepsPerFrame; ++i) walk.step(robot_at(t + i * kStep_s));
   }
 }
 

@@ -22,6 +22,8 @@ World world_with(const WorldPeopleOptions& people) {
 
 double apart(const Point2& a, const Point2& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
+double touching_m(const World& world) { return world.options.people.radius_m + world.options.robot.radius_m; }
+
 TEST(People, WhoWalksWalksAndKeepsOffWallsAndRobot) {
   WorldPeopleOptions options;
   options.walking = 4;
@@ -35,12 +37,32 @@ TEST(People, WhoWalksWalksAndKeepsOffWallsAndRobot) {
       EXPECT_TRUE(world.planner.is_free(now[i].center));
       walked += apart(now[i].center, next[i].center);
       EXPECT_LE(apart(now[i].center, next[i].center), 0.1 * 1.3 * 1.5 * options.speed_mps + 1e-9);
-      if (t > 5.0) {
-        EXPECT_GT(apart(now[i].center, {4.0, 3.0}), 0.2) << "nobody walks through the robot";
-      }
+      EXPECT_GE(apart(now[i].center, {4.0, 3.0}), touching_m(world) - 0.01) << "nobody is inside the robot";
     }
   }
   EXPECT_GT(walked / 4.0, 15.0) << "60 s at about 1 m/s";
+}
+
+// The robot goes to and fro faster than most can give way to it.
+TEST(People, NobodyIsInsideARobotThatDrivesThroughThem) {
+  WorldPeopleOptions options;
+  options.walking = 8;
+  const World world = world_with(options);
+  Trajectory robot;
+  for (int i = 0; i <= 3000; ++i) {
+    const double t = 0.02 * i;
+    robot.push_back({time_from_seconds(t), {4.0 + 2.5 * std::sin(0.5 * t), 3.0, 0.0}});
+  }
+  const People people(world, robot, 1);
+  int touched = 0;
+  for (int i = 0; i < 3000; ++i) {
+    for (const Cylinder& person : people.at(0.02 * i)) {
+      const double distance = apart(person.center, {robot[i].pose.x, robot[i].pose.y});
+      EXPECT_GE(distance, touching_m(world) - 0.03) << "at " << 0.02 * i << " s";
+      if (distance < touching_m(world) + 0.03) ++touched;
+    }
+  }
+  EXPECT_GT(touched, 50) << "else nothing was tried";
 }
 
 TEST(People, WhoStandsStandsBesideTheRobotsWay) {
