@@ -1,10 +1,15 @@
 #include "cairn/models/sensor/beam_selection.hpp"
 
+#include "cairn/core/angle.hpp"
+#include "cairn/core/batch_math.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 namespace cairn {
 namespace {
+
+constexpr double kLargestBearing = 1e5;  // beyond, angles are brought into [-pi, pi] first
 
 // Of `available` things, the middle of each of at most `wanted` (0: all) equal shares.
 class EvenChoice {
@@ -48,11 +53,22 @@ std::vector<std::size_t> select_beams(const LaserScan& scan, const BeamLimits& l
 
 std::vector<Point2> select_end_points(const LaserScan& scan, const Pose2& T_base_sensor,
                                       const BeamLimits& limits, int max_beams) {
-  std::vector<Point2> points;
-  for (const std::size_t i : select_beams(scan, limits, max_beams)) {
-    const double angle = bearing_of(scan, i);
-    const double range = scan.ranges_m[i];
-    points.push_back(T_base_sensor * Point2{range * std::cos(angle), range * std::sin(angle)});
+  const std::vector<std::size_t> beams = select_beams(scan, limits, max_beams);
+  const std::size_t count = beams.size();
+  std::vector<double> numbers(3 * count);
+  const auto angles = std::span(numbers).first(count);
+  const auto sines = std::span(numbers).subspan(count, count), cosines = std::span(numbers).last(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const double angle = bearing_of(scan, beams[k]);
+    angles[k] = std::abs(angle) < kLargestBearing ? angle : std::remainder(angle, kTwoPi);
+  }
+  sine_cosine_all(angles, sines, cosines);
+  const double c = std::cos(T_base_sensor.theta), s = std::sin(T_base_sensor.theta);
+  std::vector<Point2> points(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const double range = scan.ranges_m[beams[k]];
+    const double ahead = range * cosines[k], aside = range * sines[k];
+    points[k] = {T_base_sensor.x + c * ahead - s * aside, T_base_sensor.y + s * ahead + c * aside};
   }
   return points;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace cairn {
@@ -87,27 +88,53 @@ LikelihoodField::LikelihoodField(const std::shared_ptr<const DistanceField>& fie
       limits_(limits),
       options_(options) {}
 
-BoundUpdate<Pose2> LikelihoodField::bind(const LaserScan& scan) const {
-  const auto points = select_end_points(scan, T_base_sensor_, limits_, options_.max_beams);
-  const auto evaluate = [plane = plane_, beams = plane_->in_cells(points),
-                         scale = options_.share_of(points.size())](std::span<const Pose2> states,
-                                                                   std::span<double> out) {
+namespace {
+
+// One scan, seen through the plane.
+class ScanOnPlane {
+ public:
+  ScanOnPlane(std::shared_ptr<const LikelihoodPlane> plane, std::vector<Point2> points, double scale)
+      : plane_(std::move(plane)),
+        points_(std::move(points)),
+        beams_(plane_->in_cells(points_)),
+        scale_(scale) {}
+
+  void evaluate(std::span<const Pose2> states, std::span<double> out) const {
     constexpr std::size_t kAtOnce = 1024;
     std::array<std::uint32_t, kAtOnce> sums;
     for (std::size_t begin = 0; begin < states.size(); begin += kAtOnce) {
       const std::size_t count = std::min(kAtOnce, states.size() - begin);
-      plane->sum_codes(beams, states.subspan(begin, count), std::span(sums).first(count));
+      plane_->sum_codes(beams_, states.subspan(begin, count), std::span(sums).first(count));
       for (std::size_t i = 0; i < count; ++i)
-        out[begin + i] = scale * plane->log_likelihood(beams.count, sums[i]);
+        out[begin + i] = scale_ * plane_->log_likelihood(beams_.count, sums[i]);
     }
-  };
+  }
+
+  void differentiate(std::span<const Pose2> states, std::span<Eigen::Vector3d> out) const {
+    for (std::size_t i = 0; i < states.size(); ++i)
+      out[i] = scale_ * plane_->interpolate(points_, states[i]).tail<3>();
+  }
+
+ private:
+  std::shared_ptr<const LikelihoodPlane> plane_;
+  std::vector<Point2> points_;
+  BeamsInCells beams_;
+  double scale_;
+};
+
+}  // namespace
+
+BoundUpdate<Pose2> LikelihoodField::bind(const LaserScan& scan) const {
+  auto points = select_end_points(scan, T_base_sensor_, limits_, options_.max_beams);
+  const double scale = options_.share_of(points.size());
+  const auto prepared = std::make_shared<const ScanOnPlane>(plane_, std::move(points), scale);
   BoundUpdate<Pose2> update;
   update.stamp = scan.stamp;
-  update.log_likelihood = evaluate;
-  update.gradient = [plane = plane_, points, scale = options_.share_of(points.size())](
-                        std::span<const Pose2> states, std::span<Eigen::Vector3d> out) {
-    for (std::size_t i = 0; i < states.size(); ++i)
-      out[i] = scale * plane->interpolate(points, states[i]).tail<3>();
+  update.log_likelihood = [prepared](std::span<const Pose2> states, std::span<double> out) {
+    prepared->evaluate(states, out);
+  };
+  update.gradient = [prepared](std::span<const Pose2> states, std::span<Eigen::Vector3d> out) {
+    prepared->differentiate(states, out);
   };
   return update;
 }
