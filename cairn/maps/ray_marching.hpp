@@ -5,8 +5,23 @@
 
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace cairn {
+
+/// Directions of rays in the sensor's frame, prepared for many casts.
+class RayBearings {
+ public:
+  explicit RayBearings(std::span<const double> bearings_rad);
+  std::size_t size() const { return radians_.size(); }
+  std::span<const double> radians() const { return radians_; }
+  float cosine(std::size_t k) const { return cosine_[k]; }
+  float sine(std::size_t k) const { return sine_[k]; }
+
+ private:
+  std::vector<double> radians_;
+  std::vector<float> cosine_, sine_;
+};
 
 /// Casts many rays in one occupancy grid: the same bearings from many poses, as a beam model needs them.
 ///
@@ -36,11 +51,19 @@ class RayMarcher {
   void cast(std::span<const Pose2> T_map_sensor, std::span<const double> bearings_rad,
             std::span<float> ranges_m) const;
 
+  /// The same ranges bearing by bearing: those of bearing k are [k * poses, (k + 1) * poses).
+  void cast_by_bearing(std::span<const Pose2> T_map_sensor, const RayBearings& bearings,
+                       std::span<float> ranges_m) const;
+
  private:
   struct Field;
-  void cast_block(std::span<const Pose2> T_map_sensor, std::span<const double> bearings_rad,
-                  std::span<float> ranges_m) const;
-  void cast_exactly(const Pose2& pose, std::span<const double> bearings_rad, std::span<float> ranges_m) const;
+  struct Place;  // of a range among the results
+  void cast_blocks(std::span<const Pose2> T_map_sensor, const RayBearings& bearings, float* ranges_m,
+                   const Place& place) const;
+  void cast_block(std::span<const Pose2> T_map_sensor, const RayBearings& bearings, float* ranges_m,
+                  const Place& place) const;
+  void cast_exactly(const Pose2& pose, const RayBearings& bearings, float* ranges_m,
+                    std::size_t per_bearing) const;
 
   std::unique_ptr<const Field> field_;
   double max_range_m_;

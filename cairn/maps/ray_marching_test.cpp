@@ -97,6 +97,20 @@ TEST(RayMarcher, EveryPathAndEveryBatchGivesTheSameBits) {
   });
 }
 
+// From one row of poses to rows of bearings, over more than a block of poses and with some off the map.
+TEST(RayMarcher, ByBearingAreTheSameRanges) {
+  const RayMarcher marcher(test::mini_room(kTMapGrid), kMaxRange_m);
+  const auto poses = some_poses(201, 1.0);
+  const auto bearings = some_bearings(31);
+  const auto expected = cast(marcher, poses, bearings);
+  std::vector<float> ranges(expected.size(), -1.0f);
+  marcher.cast_by_bearing(poses, RayBearings(bearings), ranges);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    for (std::size_t k = 0; k < bearings.size(); ++k)
+      ASSERT_EQ(ranges[k * poses.size() + i], expected[i * bearings.size() + k]) << i << ' ' << k;
+  }
+}
+
 TEST(RayMarcher, AMiniatureByHand) {
   const OccupancyGrid corridor = test::draw_grid({"######",  //
                                                   "#   ?#",  //

@@ -1,9 +1,15 @@
 #include "cairn/models/sensor/beam_model.hpp"
 
+#include "cairn/core/angle.hpp"
+#include "cairn/core/batch_math.hpp"
 #include "cairn/core/errors.hpp"
+#include "cairn/models/sensor/beam_mixture_kernels.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace cairn {
@@ -11,13 +17,9 @@ namespace {
 
 constexpr double kPerSqrtTwoPi = 0.3989422804014327;
 constexpr double kLeastExpected_m = 1e-3;  // a ray that starts in a wall: keeps 1 - exp(-lambda r) above 0
-constexpr double kBeyondReach_m = 1e9;     // the map's range of a ray that meets nothing
 constexpr double kExplainedSigmas = 3.0;
 constexpr double kLeastExplained_m = 0.15;
-constexpr std::size_t kStatesAtOnce = 64;  // their ranges stay in the cache
-// Factors that are multiplied before a logarithm is taken; each is at least kLeastProbability.
-constexpr std::size_t kFactors = 16;
-constexpr double kLeastProbability = 1e-15;
+constexpr double kLargestHeading = 1e5;  // beyond, angles are brought into [-pi, pi) first
 
 double beyond(double x) { return 0.5 * std::erfc(x / std::sqrt(2.0)); }  // P(N(0, 1) >= x)
 
@@ -66,141 +68,197 @@ BeamMixture::Terms BeamMixture::terms(double z, double expected) const {
 }
 
 double BeamMixture::log_likelihood(double z_m, double expected_m) const {
-  return std::log(std::max(terms(z_m, expected_m).sum(), kLeastProbability));
+  return std::log(std::max<double>(terms(z_m, expected_m).sum(), kLeastProbability));
 }
 
-// BeamMixture's functions of the map's range r, in steps of sigma / 64 and 2 cm. What they leave out is below
-// 1e-13 of a term, but for short readings at r < 1 cm.
-struct BeamModel::Tables {
-  explicit Tables(const BeamModelOptions& options);
-
-  // N(z; r, sigma) in 1/m, over |z - r|.
-  double normal(double deviation_m) const { return at(normal_, deviation_m * steps_per_m_); }
-  // P(N(r, sigma) >= z_max), over (z_max - r).
-  double no_return(double below_reach_m) const {
-    const double p = at(beyond_, std::abs(below_reach_m) * steps_per_m_);
-    return below_reach_m > 0.0 ? p : 1.0 - p;
+// P(N(0, 1) >= x), in steps of 1 / 64.
+class BeamModel::NormalTail {
+ public:
+  NormalTail() {
+    for (int i = 0; i <= static_cast<int>(kStepsPerSigma * kSigmas); ++i)
+      values_.push_back(beyond(i / kStepsPerSigma));
+    values_.push_back(0.0);  // stands for all beyond
   }
-  // 1 / (1 - exp(-lambda r)).
-  double short_scale(double r_m) const { return at(short_scale_, r_m * kStepsPerMetre); }
+
+  double operator()(double x) const {
+    const double last = static_cast<double>(values_.size() - 1);
+    const double p = values_[static_cast<std::size_t>(std::min(std::abs(x) * kStepsPerSigma + 0.5, last))];
+    return x > 0.0 ? p : 1.0 - p;
+  }
 
  private:
   static constexpr double kStepsPerSigma = 64.0;
   static constexpr double kSigmas = 8.0;
-  static constexpr double kStepsPerMetre = 50.0;
-  static constexpr double kLargestExponent = 30.0;
-  static constexpr double kMostSteps = 100'000;
 
-  // The last value stands for all beyond.
-  static double at(const std::vector<double>& table, double step) {
-    const double last = static_cast<double>(table.size() - 1);
-    return table[static_cast<std::size_t>(std::min(step + 0.5, last))];
-  }
-
-  double steps_per_m_;
-  std::vector<double> normal_, beyond_, short_scale_;
+  std::vector<double> values_;
 };
 
-BeamModel::Tables::Tables(const BeamModelOptions& o) : steps_per_m_(kStepsPerSigma / o.sigma_hit_m) {
-  for (int i = 0; i <= static_cast<int>(kStepsPerSigma * kSigmas); ++i) {
-    const double deviation = i / kStepsPerSigma;
-    normal_.push_back(normal_density(deviation) / o.sigma_hit_m);
-    beyond_.push_back(beyond(deviation));
-  }
-  normal_.push_back(0.0);
-  beyond_.push_back(0.0);
-  const double steps = std::min(kMostSteps, kStepsPerMetre * kLargestExponent / o.lambda_short_per_m);
-  for (int i = 0; i <= static_cast<int>(steps); ++i) {
-    const double r = std::max(i / kStepsPerMetre, kLeastExpected_m);
-    short_scale_.push_back(-1.0 / std::expm1(-o.lambda_short_per_m * r));
-  }
-}
+namespace {
+
+double depth_of_walls(const RayMarcher& map) { return 0.5 * map.cell_m(); }
+
+}  // namespace
 
 void expect_ranges(const RayMarcher& map, std::span<const Pose2> T_map_sensor,
                    std::span<const double> bearings_rad, std::span<float> ranges_m) {
   map.cast(T_map_sensor, bearings_rad, ranges_m);
-  const auto most = static_cast<float>(map.max_range_m()), depth = static_cast<float>(0.5 * map.cell_m());
+  const auto most = static_cast<float>(map.max_range_m()), depth = static_cast<float>(depth_of_walls(map));
   for (float& range : ranges_m) range = range < most ? std::min(range + depth, most) : most;
 }
+
+namespace {
+
+// The indices of the states, from the least heading to the largest. Any order gives the same results.
+std::vector<std::uint32_t> by_heading(std::span<const Pose2> states) {
+  std::vector<std::pair<float, std::uint32_t>> keys(states.size());
+  for (std::uint32_t i = 0; i < states.size(); ++i) {
+    const double heading = states[i].theta;
+    keys[i] = {static_cast<float>(std::abs(heading) < kLargestHeading ? heading : 0.0), i};
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<std::uint32_t> order(states.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = keys[i].second;
+  return order;
+}
+
+}  // namespace
 
 // The beams of one scan with all that does not depend on the state.
 class BeamModel::Beams {
  public:
   Beams(const BeamModel& model, const LaserScan& scan);
+  Beams(const BeamModel& model, double reach_m, const std::vector<BeamReading>& readings);
 
+  // States of like headings side by side: their rays take as many steps.
   void operator()(std::span<const Pose2> states, std::span<double> out) const {
-    std::vector<Pose2> T_map_sensor;
-    std::vector<float> expected;
-    for (std::size_t begin = 0; begin < states.size(); begin += kStatesAtOnce) {
-      const auto block = states.subspan(begin, std::min(kStatesAtOnce, states.size() - begin));
-      T_map_sensor.clear();
-      for (const Pose2& state : block) T_map_sensor.push_back(state * T_base_sensor_);
-      expected.resize(block.size() * bearings_.size());
-      expect_ranges(*map_, T_map_sensor, bearings_, expected);
-      for (std::size_t i = 0; i < block.size(); ++i) {
-        out[begin + i] = scale_ * score(std::span(expected).subspan(i * bearings_.size(), bearings_.size()));
-      }
+    const std::vector<std::uint32_t> order = by_heading(states);
+    // Rows of as many ranges as there are states; the last one is read to its capacity.
+    std::vector<float> ranges(kAtOnce * (bearings_.size() + 1));
+    Poses some;
+    for (std::size_t begin = 0; begin < states.size(); begin += kAtOnce) {
+      const auto places = std::span(order).subspan(begin, std::min(kAtOnce, states.size() - begin));
+      for (std::size_t i = 0; i < places.size(); ++i) some[i] = states[places[i]];
+      const BeamProducts products = weigh(std::span(some).first(places.size()), ranges);
+      for (std::size_t i = 0; i < places.size(); ++i) out[places[i]] = scale_ * products.log(i);
     }
   }
 
  private:
-  double score(std::span<const float> expected) const {
-    double sum = 0.0, product = 1.0;
-    for (std::size_t k = 0; k < expected.size(); ++k) {
-      const double r = expected[k] < map_->max_range_m() ? expected[k] : kBeyondReach_m;
-      const double p =
-          k < returns_.size() ? probability(returns_[k], r) : max_ + hit_ * tables_->no_return(reach_m_ - r);
-      product *= std::max(p, kLeastProbability);
-      if ((k + 1) % kFactors != 0) continue;
-      sum += std::log(product);
-      product = 1.0;
+  static constexpr std::size_t kAtOnce = BeamProducts::kCapacity;
+  using Poses = std::array<Pose2, kAtOnce>;
+
+  BeamProducts weigh(std::span<const Pose2> states, std::span<float> ranges) const {
+    const Poses T_map_sensor = sensors_at(states);
+    const std::size_t count = states.size();
+    map_->cast_by_bearing(std::span(T_map_sensor).first(count), bearings_,
+                          ranges.first(count * bearings_.size()));
+    BeamProducts products;
+    products.begin();
+    for (std::size_t k = 0; k < bearings_.size(); ++k) {
+      const float* const expected = &ranges[k * count];
+      if (k < returns_.size()) {
+        multiply_return(causes_, returns_[k].z_m, returns_[k].unexpected, expected, products);
+      } else {
+        multiply_no_return(expected, products);
+      }
     }
-    return sum + std::log(product);
+    return products;
   }
+
+  // Where the sensors are, as many as there are states.
+  Poses sensors_at(std::span<const Pose2> states) const;
+  void multiply_no_return(const float* ranges_m, BeamProducts& products) const;
 
   struct Return {
-    double z_m;
-    double unexpected;  ///< z_short lambda exp(-lambda z)
+    float z_m;
+    float unexpected;  ///< z_short lambda exp(-lambda z)
   };
-  double probability(const Return& beam, double r) const {
-    const double hit = hit_ * tables_->normal(std::abs(beam.z_m - r));
-    return hit + (beam.z_m <= r ? beam.unexpected * tables_->short_scale(r) : 0.0) + rand_;
-  }
 
   std::shared_ptr<const RayMarcher> map_;
-  std::shared_ptr<const Tables> tables_;
+  std::shared_ptr<const NormalTail> tail_;
   Pose2 T_base_sensor_;
-  double reach_m_;
-  double hit_, max_, rand_, scale_;
+  BeamCauses causes_;
+  double reach_m_, sigma_m_, hit_, max_, scale_;
   std::vector<Return> returns_;
-  std::vector<double> bearings_;  ///< of the returns, then of the beams without return
+  RayBearings bearings_;  ///< of the returns, then of the beams without return
 };
 
+namespace {
+
+std::vector<BeamReading> returns_first(std::vector<BeamReading> readings) {
+  std::stable_partition(readings.begin(), readings.end(), [](const BeamReading& r) { return r.is_return; });
+  return readings;
+}
+
+RayBearings bearings_of(const std::vector<BeamReading>& readings) {
+  std::vector<double> bearings;
+  bearings.reserve(readings.size());
+  for (const BeamReading& reading : readings) bearings.push_back(reading.bearing_rad);
+  return RayBearings(bearings);
+}
+
+}  // namespace
+
 BeamModel::Beams::Beams(const BeamModel& model, const LaserScan& scan)
+    : Beams(model, reach_m(scan, model.limits_),
+            returns_first(select_readings(scan, model.limits_, model.options_.max_beams))) {}
+
+BeamModel::Beams::Beams(const BeamModel& model, double reach_m, const std::vector<BeamReading>& readings)
     : map_(model.map_),
-      tables_(model.tables_),
+      tail_(model.tail_),
       T_base_sensor_(model.T_base_sensor_),
-      reach_m_(cairn::reach_m(scan, model.limits_)) {
+      reach_m_(reach_m),
+      sigma_m_(model.options_.sigma_hit_m),
+      bearings_(bearings_of(readings)) {
   const BeamModelOptions& o = model.options_;
   const double weights = o.z_hit + o.z_short + o.z_max + o.z_rand;
   hit_ = o.z_hit / weights;
   max_ = o.z_max / weights;
-  rand_ = o.z_rand / weights / reach_m_;
-  std::vector<BeamReading> readings = select_readings(scan, model.limits_, o.max_beams);
-  std::stable_partition(readings.begin(), readings.end(), [](const BeamReading& r) { return r.is_return; });
+  causes_ = {.hit = static_cast<float>(hit_ * normal_density(0.0) / sigma_m_),
+             .per_sigma = static_cast<float>(1.0 / sigma_m_),
+             .lambda_per_m = static_cast<float>(o.lambda_short_per_m),
+             .rand = static_cast<float>(o.z_rand / weights / reach_m_),
+             .depth_m = static_cast<float>(depth_of_walls(*map_)),
+             .max_range_m = static_cast<float>(map_->max_range_m())};
   for (const BeamReading& reading : readings) {
-    bearings_.push_back(reading.bearing_rad);
-    if (!reading.is_return) continue;
+    if (!reading.is_return) break;
     const double decay = o.lambda_short_per_m * std::exp(-o.lambda_short_per_m * reading.range_m);
-    returns_.push_back({reading.range_m, o.z_short / weights * decay});
+    returns_.push_back(
+        {static_cast<float>(reading.range_m), static_cast<float>(o.z_short / weights * decay)});
   }
   scale_ = std::min(1.0, o.effective_beams / std::max<double>(1.0, static_cast<double>(readings.size())));
+}
+
+BeamModel::Beams::Poses BeamModel::Beams::sensors_at(std::span<const Pose2> states) const {
+  std::array<double, BeamProducts::kCapacity> headings{}, sines, cosines;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const double heading = states[i].theta;
+    headings[i] = std::abs(heading) < kLargestHeading ? heading : normalize_angle(heading);
+  }
+  sine_cosine_all(headings, sines, cosines);
+  Poses poses;
+  const Pose2& T = T_base_sensor_;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    poses[i] = {states[i].x + cosines[i] * T.x - sines[i] * T.y,
+                states[i].y + sines[i] * T.x + cosines[i] * T.y, headings[i] + T.theta};
+  }
+  return poses;
+}
+
+void BeamModel::Beams::multiply_no_return(const float* ranges_m, BeamProducts& products) const {
+  std::array<float, BeamProducts::kCapacity> probabilities;
+  for (std::size_t i = 0; i < probabilities.size(); ++i) {
+    const float middle = ranges_m[i] + causes_.depth_m;
+    const double tail = middle < causes_.max_range_m ? (*tail_)((reach_m_ - middle) / sigma_m_) : 1.0;
+    probabilities[i] = static_cast<float>(max_ + hit_ * tail);
+  }
+  multiply(probabilities.data(), products);
 }
 
 BeamModel::BeamModel(std::shared_ptr<const RayMarcher> map, const Pose2& T_base_sensor,
                      const BeamLimits& limits, const BeamModelOptions& options)
     : map_(std::move(map)),
-      tables_(std::make_shared<const Tables>(options)),
+      tail_(std::make_shared<const NormalTail>()),
       T_base_sensor_(T_base_sensor),
       limits_(limits),
       options_(options) {}

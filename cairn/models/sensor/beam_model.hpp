@@ -76,10 +76,10 @@ class BeamModel final : public LaserModel {
   bool reads_no_returns() const override { return true; }
 
  private:
-  struct Tables;
+  class NormalTail;
   class Beams;
   std::shared_ptr<const RayMarcher> map_;
-  std::shared_ptr<const Tables> tables_;
+  std::shared_ptr<const NormalTail> tail_;
   Pose2 T_base_sensor_;
   BeamLimits limits_;
   BeamModelOptions options_;
