@@ -40,7 +40,7 @@ void resample_kld(benchmark::State& state) {
     ancestors.clear();
     draw_systematic(cumulative, size.begin(), 0.5, ancestors);
     next.resize(ancestors.size());
-    for (std::size_t i = 0; i < next.size(); ++i) next[i] = states[ancestors[i]];
+    copy_drawn(std::span<const Pose2>(states), ancestors, next);
     benchmark::DoNotOptimize(size.wanted(next));
     benchmark::DoNotOptimize(next.data());
   }

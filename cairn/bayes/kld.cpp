@@ -21,13 +21,19 @@ void KldOptions::visit(OptionVisitor& v) {
 }
 
 std::size_t kld_bound(std::size_t occupied_bins, const KldOptions& options) {
+  return KldBound(options)(occupied_bins);
+}
+
+KldBound::KldBound(const KldOptions& options)
+    : epsilon_(options.epsilon), quantile_(normal_quantile(options.confidence)) {}
+
+std::size_t KldBound::operator()(std::size_t occupied_bins) const {
   if (occupied_bins <= 1) return 1;
   const double k = static_cast<double>(occupied_bins - 1);
-  const double z = normal_quantile(options.confidence);
   const double a = 2.0 / (9.0 * k);
   // Wilson-Hilferty approximation of the chi-square quantile with k degrees of freedom.
-  const double cube_root = 1.0 - a + std::sqrt(a) * z;
-  return static_cast<std::size_t>(std::ceil(k / (2.0 * options.epsilon) * cube_root * cube_root * cube_root));
+  const double cube_root = 1.0 - a + std::sqrt(a) * quantile_;
+  return static_cast<std::size_t>(std::ceil(k / (2.0 * epsilon_) * cube_root * cube_root * cube_root));
 }
 
 PoseBins::PoseBins(const KldOptions& options)

@@ -23,6 +23,16 @@ struct KldOptions {
 /// epsilon, if the samples fall into `occupied_bins` bins. 1 for a single bin (the bound is 0 there).
 std::size_t kld_bound(std::size_t occupied_bins, const KldOptions& options);
 
+/// The same again and again for the same options.
+class KldBound {
+ public:
+  explicit KldBound(const KldOptions& options);
+  std::size_t operator()(std::size_t occupied_bins) const;
+
+ private:
+  double epsilon_, quantile_;
+};
+
 /// Cell of a pose in (x, y, heading), a key that is unique within +-2^20 cells and the same for headings that
 /// differ by full turns.
 class PoseBins {

@@ -1,7 +1,6 @@
 #include "cairn/bayes/occupied_bins.hpp"
 
 #include "cairn/core/angle.hpp"
-#include "cairn/core/pose_cells.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,9 +12,9 @@ namespace {
 constexpr double kHalfSide = 16.0;  // of OccupiedBins::kSide cells
 constexpr std::size_t kAtOnce = 256;
 
-// The cell of a pose that find_cells finds none for: perhaps its heading is not in [-pi, pi).
+// The cell of a pose that seems to have none: perhaps its heading is just not in [-pi, pi).
 std::int32_t unusual(const PoseCells& cells, const Pose2& pose) {
-  if (pose.theta >= -kPi && pose.theta < kPi) return PoseCells::kNone;
+  if (std::abs(pose.theta) <= PoseCells::kLargestHeading) return PoseCells::kNone;
   return cells.cell_of({pose.x, pose.y, normalize_angle(pose.theta)});
 }
 
@@ -48,23 +47,21 @@ void OccupiedBins::put_marks_around(const Pose2& pose) {
 void OccupiedBins::insert(std::span<const Pose2> poses) {
   if (!placed_ && !poses.empty()) put_marks_around(poses.front());
   const PoseCells near = {cells_per_m_, first_x_, first_y_, kSide, headings_};
-  std::array<std::int32_t, kAtOnce> cells;
+  std::array<std::uint32_t, kAtOnce> elsewhere;
   for (; !poses.empty(); poses = poses.subspan(std::min(kAtOnce, poses.size()))) {
     const auto some = poses.first(std::min(kAtOnce, poses.size()));
-    find_cells(near, some, std::span(cells).first(some.size()));
-    std::size_t fresh = 0;
-    for (std::size_t i = 0; i < some.size(); ++i) {
-      const std::int32_t cell = cells[i] != PoseCells::kNone ? cells[i] : unusual(near, some[i]);
-      if (cell == PoseCells::kNone) {
-        far_.insert(bins_.key(some[i]));
-        continue;
-      }
-      std::uint8_t& mark = marks_[static_cast<std::size_t>(cell)];
-      fresh += mark != round_ ? 1 : 0;
-      mark = round_;
-    }
-    near_ += fresh;
+    const CellsMarked done = mark_cells(near, some, round_, marks_, elsewhere);
+    near_ += done.fresh;
+    for (std::size_t k = 0; k < done.elsewhere; ++k) insert_elsewhere(near, some[elsewhere[k]]);
   }
+}
+
+void OccupiedBins::insert_elsewhere(const PoseCells& near, const Pose2& pose) {
+  const std::int32_t cell = unusual(near, pose);
+  if (cell == PoseCells::kNone) return far_.insert(bins_.key(pose));
+  std::uint8_t& mark = marks_[static_cast<std::size_t>(cell)];
+  near_ += mark != round_ ? 1 : 0;
+  mark = round_;
 }
 
 }  // namespace cairn

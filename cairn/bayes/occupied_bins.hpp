@@ -3,6 +3,7 @@
 #include "cairn/bayes/key_set.hpp"
 #include "cairn/bayes/kld.hpp"
 #include "cairn/core/pose2.hpp"
+#include "cairn/core/pose_cells.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -27,6 +28,7 @@ class OccupiedBins {
   static constexpr int kSide = 32;  ///< marked cells along x and y
 
   void put_marks_around(const Pose2& pose);
+  void insert_elsewhere(const PoseCells& near, const Pose2& pose);
 
   PoseBins bins_;
   double cells_per_m_;

@@ -5,6 +5,7 @@
 #include "cairn/bayes/particle_set.hpp"
 #include "cairn/bayes/refinement.hpp"
 #include "cairn/bayes/regularization.hpp"
+#include "cairn/bayes/resampling/copy_drawn.hpp"
 #include "cairn/bayes/resampling/systematic.hpp"
 #include "cairn/bayes/sample_size.hpp"
 #include "cairn/bayes/tempering.hpp"
@@ -330,7 +331,8 @@ class ParticleFilter {
     parts_.resampling->draw(cumulative_, count, numbers, ancestors_);
     const std::size_t first = next_.size();
     next_.resize(first + count);
-    for (std::size_t i = 0; i < count; ++i) next_[first + i] = particles_.states[ancestors_[i]];
+    copy_drawn(std::span<const State>(particles_.states), std::span<const std::uint32_t>(ancestors_),
+               std::span(next_).subspan(first));
   }
 
   void spread(std::span<State> states, std::size_t first, std::uint16_t draw) {

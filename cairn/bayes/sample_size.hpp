@@ -44,7 +44,7 @@ class FixedSize final : public SampleSize<State> {
 class KldSize final : public SampleSize<Pose2> {
  public:
   KldSize(const KldOptions& options, std::size_t min_particles, std::size_t max_particles)
-      : options_(options), min_(min_particles), max_(max_particles), occupied_(options) {}
+      : bound_(options), min_(min_particles), max_(max_particles), occupied_(options) {}
 
   std::size_t begin() override {
     occupied_.clear();
@@ -53,13 +53,13 @@ class KldSize final : public SampleSize<Pose2> {
 
   std::size_t wanted(std::span<const Pose2> newly_drawn) override {
     occupied_.insert(newly_drawn);
-    return std::clamp(kld_bound(occupied_.size(), options_), min_, max_);
+    return std::clamp(bound_(occupied_.size()), min_, max_);
   }
 
   std::size_t most() const override { return max_; }
 
  private:
-  KldOptions options_;
+  KldBound bound_;
   std::size_t min_;
   std::size_t max_;
   OccupiedBins occupied_;

@@ -101,18 +101,6 @@ double dot_kernel(const double* HWY_RESTRICT a, const double* HWY_RESTRICT b, st
   return sum;
 }
 
-void ceilings_kernel(const double* values, double factor, double offset, std::int32_t* out,
-                     std::size_t count) {
-  const Doubles d;
-  const hn::Rebind<std::int32_t, Doubles> d32;
-  std::size_t i = 0;
-  for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d)) {
-    const D scaled = hn::Mul(hn::LoadU(d, values + i), hn::Set(d, factor));
-    hn::StoreU(hn::DemoteTo(d32, hn::Ceil(hn::Sub(scaled, hn::Set(d, offset)))), d32, out + i);
-  }
-  for (; i < count; ++i) out[i] = static_cast<std::int32_t>(std::ceil(values[i] * factor - offset));
-}
-
 }  // namespace cairn::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -123,7 +111,6 @@ namespace {
 HWY_EXPORT(exp_kernel);
 HWY_EXPORT(sine_cosine_kernel);
 HWY_EXPORT(dot_kernel);
-HWY_EXPORT(ceilings_kernel);
 
 }  // namespace
 
@@ -155,11 +142,6 @@ double sum_of_squares(std::span<const double> values) { return dot(values, value
 double dot(std::span<const double> a, std::span<const double> b) {
   CAIRN_ASSERT(a.size() == b.size());
   return HWY_DYNAMIC_DISPATCH(dot_kernel)(a.data(), b.data(), a.size());
-}
-
-void ceilings(std::span<const double> values, double factor, double offset, std::span<std::int32_t> out) {
-  CAIRN_ASSERT(out.size() == values.size());
-  HWY_DYNAMIC_DISPATCH(ceilings_kernel)(values.data(), factor, offset, out.data(), values.size());
 }
 
 }  // namespace cairn

@@ -24,7 +24,4 @@ double sum_of_squares(std::span<const double> values);
 /// The sum of a[i] * b[i], likewise. @pre equal sizes
 double dot(std::span<const double> a, std::span<const double> b);
 
-/// out[i] = ceil(values[i] * factor - offset). @pre equal sizes, results below 2^31
-void ceilings(std::span<const double> values, double factor, double offset, std::span<std::int32_t> out);
-
 }  // namespace cairn

@@ -83,18 +83,5 @@ TEST(SumOf, AddsAllOfThem) {
   }
 }
 
-TEST(Ceilings, AreThoseOfTheLibraryOnEveryPath) {
-  std::vector<double> values = {0.0, 0.25, 0.5, 1.0};
-  for (int i = 0; i < 1001; ++i) values.push_back(std::abs(std::sin(i)));
-  test::on_every_simd_path([&](SimdPath path) {
-    for (const std::size_t count : {0u, 1u, 3u, 4u, 17u, 1005u}) {
-      std::vector<std::int32_t> out(count, -7);
-      ceilings(std::span(values).first(count), 1e6, 0.5, out);
-      for (std::size_t i = 0; i < count; ++i)
-        ASSERT_EQ(out[i], static_cast<std::int32_t>(std::ceil(values[i] * 1e6 - 0.5))) << name_of(path);
-    }
-  });
-}
-
 }  // namespace
 }  // namespace cairn

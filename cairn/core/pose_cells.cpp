@@ -4,6 +4,7 @@
 #include "cairn/core/errors.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #undef HWY_TARGET_INCLUDE
@@ -22,38 +23,87 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Doubles = hn::ScalableTag<double>;
 using D = hn::Vec<Doubles>;
 
-// A vector of poses, their doubles one after the other. Cells are whole numbers: as doubles they are exact.
-HWY_INLINE void find_vector(const PoseCells& c, const double* poses, std::int32_t* out) {
-  const Doubles d;
-  const hn::Rebind<std::int32_t, Doubles> d32;
-  D x, y, theta;
-  hn::LoadInterleaved3(d, poses, x, y, theta);
-  const D scale = hn::Set(d, c.cells_per_m), side = hn::Set(d, c.side), headings = hn::Set(d, c.headings);
-  const D column = hn::Sub(hn::Floor(hn::Mul(x, scale)), hn::Set(d, c.first_x));
-  const D row = hn::Sub(hn::Floor(hn::Mul(y, scale)), hn::Set(d, c.first_y));
-  // 0 .. side - 1: no farther from the middle than its ends.
-  const D middle = hn::Set(d, 0.5 * (c.side - 1));
-  const auto inside = hn::And(hn::Le(hn::Abs(hn::Sub(column, middle)), middle),
-                              hn::Le(hn::Abs(hn::Sub(row, middle)), middle));
-  const auto is_heading = hn::And(hn::Ge(theta, hn::Set(d, -kPi)), hn::Lt(theta, hn::Set(d, kPi)));
-  D turn = hn::Floor(hn::Mul(theta, hn::Set(d, c.headings / kTwoPi)));
-  turn = hn::Add(turn, hn::IfThenElseZero(hn::Lt(turn, hn::Zero(d)), headings));
-  const D cell = hn::Add(hn::Mul(hn::Add(hn::Mul(row, side), column), headings), turn);
-  const D found = hn::IfThenElse(hn::And(inside, is_heading), cell, hn::Set(d, PoseCells::kNone));
-  hn::StoreU(hn::DemoteTo(d32, found), d32, out);
+constexpr std::size_t kLanes = hn::MaxLanes(Doubles());
+
+// Adding 1.5 times 2^52 leaves whole numbers in the low bits of a double.
+constexpr double kBias = 6755399441055744.0;
+using Cells = hn::Vec<hn::RebindToUnsigned<Doubles>>;
+
+HWY_INLINE Cells without_bias(D biased) {
+  const hn::RebindToUnsigned<Doubles> du;
+  return hn::Xor(hn::BitCast(du, biased), hn::BitCast(du, hn::Set(Doubles(), kBias)));
 }
 
-void find_all(const PoseCells& cells, const double* poses, std::int32_t* out, std::size_t count) {
-  constexpr std::size_t kLanes = hn::MaxLanes(Doubles());
-  const PoseCells c = cells;  // not to be read again after each store
+// The cells of a vector of poses, their doubles one after the other; true where there is one.
+HWY_INLINE hn::Mask<Doubles> find_cells(const PoseCells& c, const double* poses, Cells& cell) {
+  const Doubles d;
+  const hn::RebindToUnsigned<Doubles> du;
+  D x, y, theta;
+  hn::LoadInterleaved3(d, poses, x, y, theta);
+  const D scale = hn::Set(d, c.cells_per_m), headings = hn::Set(d, c.headings), bias = hn::Set(d, kBias);
+  const D column = hn::Sub(hn::Floor(hn::Mul(x, scale)), hn::Set(d, c.first_x));
+  const D row = hn::Sub(hn::Floor(hn::Mul(y, scale)), hn::Set(d, c.first_y));
+  // 0 .. side - 1, a power of two: no bit but the lowest ones differs from those of the bias.
+  const auto beyond =
+      hn::And(hn::Or(without_bias(hn::Add(column, bias)), without_bias(hn::Add(row, bias))),
+              hn::Set(du, ~std::uint64_t{0} << std::countr_zero(static_cast<std::uint32_t>(c.side))));
+  const auto is_heading = hn::Le(hn::Abs(theta), hn::Set(d, PoseCells::kLargestHeading));
+  const D turn = hn::Floor(hn::Mul(theta, hn::Set(d, c.headings / kTwoPi)));
+  const D first = hn::IfThenElse(hn::Lt(turn, hn::Zero(d)), hn::Add(bias, headings), bias);
+  const D place = hn::Mul(hn::Add(hn::Mul(row, hn::Set(d, c.side)), column), headings);
+  cell = without_bias(hn::Add(place, hn::Add(turn, first)));
+  return hn::And(hn::RebindMask(d, hn::Eq(beyond, hn::Zero(du))), is_heading);
+}
+
+// As mark_cells has it. The cells of one vector are marked while the next ones are found.
+struct Marker {
+  const PoseCells cells;  // copies: not to be read again after each mark
+  const std::uint8_t mark;
+  std::uint8_t* const marks;
+  std::uint32_t* const elsewhere;
+  CellsMarked done;
+
+  HWY_INLINE void put(std::uint64_t cell) {
+    std::uint8_t& place = marks[cell];
+    done.fresh += place != mark ? 1 : 0;
+    place = mark;
+  }
+
+  // The vector's first `count` poses; the first of all has this number.
+  HWY_INLINE void add(const double* poses, std::size_t number, std::size_t count) {
+    const Doubles d;
+    const hn::RebindToUnsigned<Doubles> du;
+    Cells cell;
+    const auto found = find_cells(cells, poses, cell);
+    HWY_ALIGN std::uint64_t each[kLanes];
+    if (HWY_LIKELY(hn::AllTrue(d, found) && count == kLanes)) {
+      hn::Store(cell, du, each);
+      HWY_UNROLL(8)
+      for (const std::uint64_t k : each) put(k);
+      return;
+    }
+    constexpr std::uint64_t kNowhere = ~std::uint64_t{0};
+    hn::Store(hn::IfThenElse(hn::RebindMask(du, found), cell, hn::Set(du, kNowhere)), du, each);
+    for (std::size_t k = 0; k < count; ++k) {
+      if (each[k] != kNowhere) {
+        put(each[k]);
+      } else {
+        elsewhere[done.elsewhere++] = static_cast<std::uint32_t>(number + k);
+      }
+    }
+  }
+};
+
+CellsMarked mark_all(const PoseCells& cells, const double* poses, std::size_t count, std::uint8_t mark,
+                     std::uint8_t* marks, std::uint32_t* elsewhere) {
+  Marker marker{cells, mark, marks, elsewhere, {}};
   std::size_t i = 0;
-  for (; i + kLanes <= count; i += kLanes) find_vector(c, poses + 3 * i, out + i);
-  if (i == count) return;
+  for (; i + kLanes <= count; i += kLanes) marker.add(poses + 3 * i, i, kLanes);
+  if (i == count) return marker.done;
   double rest[3 * kLanes] = {};
-  std::int32_t found[kLanes];
   std::copy_n(poses + 3 * i, 3 * (count - i), rest);
-  find_vector(c, rest, found);
-  std::copy_n(found, count - i, out + i);
+  marker.add(rest, i, count - i);
+  return marker.done;
 }
 
 }  // namespace cairn::HWY_NAMESPACE
@@ -62,22 +112,27 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace cairn {
 
-HWY_EXPORT(find_all);
+HWY_EXPORT(mark_all);
 
 std::int32_t PoseCells::cell_of(const Pose2& pose) const {
   const double column = std::floor(pose.x * cells_per_m) - first_x;
   const double row = std::floor(pose.y * cells_per_m) - first_y;
   const bool inside = column >= 0.0 && column < side && row >= 0.0 && row < side;
-  if (!inside || !(pose.theta >= -kPi && pose.theta < kPi)) return kNone;
+  if (!inside || !(std::abs(pose.theta) <= kLargestHeading)) return kNone;
   const double turn = std::floor(pose.theta * (headings / kTwoPi));
   const double heading = turn < 0.0 ? turn + headings : turn;
   return static_cast<std::int32_t>((row * side + column) * headings + heading);
 }
 
-void find_cells(const PoseCells& cells, std::span<const Pose2> poses, std::span<std::int32_t> out) {
-  CAIRN_ASSERT(out.size() == poses.size());
+CellsMarked mark_cells(const PoseCells& cells, std::span<const Pose2> poses, std::uint8_t mark,
+                       std::span<std::uint8_t> marks, std::span<std::uint32_t> elsewhere) {
+  CAIRN_ASSERT(elsewhere.size() >= poses.size());
+  CAIRN_ASSERT(std::has_single_bit(static_cast<std::uint32_t>(cells.side)));
+  CAIRN_ASSERT(marks.size() >= static_cast<std::size_t>(cells.side) * cells.side * cells.headings);
   static_assert(sizeof(Pose2) == 3 * sizeof(double));
-  HWY_DYNAMIC_DISPATCH(find_all)(cells, &poses.data()->x, out.data(), poses.size());
+  if (poses.empty()) return {};
+  return HWY_DYNAMIC_DISPATCH(mark_all)(cells, &poses.data()->x, poses.size(), mark, marks.data(),
+                                        elsewhere.data());
 }
 
 }  // namespace cairn

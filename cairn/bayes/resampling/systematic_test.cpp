@@ -2,6 +2,7 @@
 
 #include "cairn/core/rng.hpp"
 #include "cairn/core/statistics.hpp"
+#include "simd_paths.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -48,6 +49,24 @@ TEST(CumulativeWeights, AddUpToExactlyOne) {
   EXPECT_THROW(cumulative_weights({}), std::logic_error);
 }
 
+TEST(CumulativeSums, EveryPathGivesTheSameBitsAndEachIsASum) {
+  for (const std::size_t n : {1u, 2u, 5u, 16u, 17u, 1003u}) {
+    const auto weights = random_weights(n, n);
+    std::vector<double> expected;
+    cumulative_sums(weights, expected);
+    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(expected[i], (sum += weights[i]) / total, 1e-13) << i;
+    EXPECT_TRUE(std::is_sorted(expected.begin(), expected.end()));
+    EXPECT_EQ(expected.back(), 1.0);
+    test::on_every_simd_path([&](SimdPath path) {
+      std::vector<double> found;
+      cumulative_sums(weights, found);
+      EXPECT_EQ(found, expected) << name_of(path) << ' ' << n;
+    });
+  }
+}
+
 TEST(Systematic, ByHand) {
   EXPECT_EQ(counts_of({1.0, 3.0, 4.0}, 8, 0.5), (std::vector<std::size_t>{1, 3, 4}));
   EXPECT_EQ(counts_of({0.5, 0.5}, 1, 0.49), (std::vector<std::size_t>{1, 0}));
@@ -66,6 +85,28 @@ TEST(Systematic, CountsLieWithinOneOfTheirExpectation) {
           EXPECT_LT(std::abs(static_cast<double>(counts[i]) - expected), 1.0 + 1e-9);
         }
       }
+    }
+  }
+}
+
+// One weight of many teeth, many of none, more indices than are looked at together.
+TEST(Systematic, EveryPathDrawsWhatLiesUnderThePlainComb) {
+  for (const std::size_t n : {1u, 3u, 4u, 255u, 256u, 257u, 1003u}) {
+    auto weights = random_weights(n, n);
+    weights[n / 2] += 0.3 * static_cast<double>(n);
+    const auto cumulative = cumulative_weights(log_weights(weights));
+    for (const std::size_t count : {0u, 1u, 7u, 64u, 1000u}) {
+      std::vector<std::uint32_t> expected = {77};
+      std::uint32_t index = 0;
+      for (std::size_t tooth = 0; tooth < count; ++tooth) {
+        while (cumulative[index] * static_cast<double>(count) - 0.37 <= static_cast<double>(tooth)) ++index;
+        expected.push_back(index);
+      }
+      test::on_every_simd_path([&](SimdPath path) {
+        std::vector<std::uint32_t> ancestors = {77};
+        draw_systematic(cumulative, count, 0.37, ancestors);
+        EXPECT_EQ(ancestors, expected) << name_of(path) << ' ' << n << ' ' << count;
+      });
     }
   }
 }
