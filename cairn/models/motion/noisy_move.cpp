@@ -22,9 +22,12 @@
 namespace cairn {
 namespace {
 
-// Cosine and sine of all whole multiples of a turn / kHeadings, one pair after the other.
-constexpr std::size_t kHeadings = 512;
+// Cosine and sine of all whole multiples of 1 / kPerRadian from -8 to 8 rad, one pair after the other: first
+// those from 0 on, then the negative ones, as the low bits of a number count.
+constexpr int kPerRadian = 64;
+constexpr std::size_t kHeadings = std::size_t{16} * kPerRadian;
 using HeadingTable = std::array<double, 2 * kHeadings>;
+constexpr double kLargestInTable = 8.0 - 1.0 / kPerRadian;
 
 constexpr std::size_t kMostStates = NormalBatch::kCapacity;
 static_assert(Normal3Batch::kCapacity <= kMostStates);
@@ -100,45 +103,20 @@ struct NoisyPart {
   }
 };
 
-// Where the states of a batch look after the first turn: the place in the table of what is closest, and the
-// rest.
-struct Headings {
-  HWY_ALIGN double heading[kMostStates];
-  HWY_ALIGN double rest[kMostStates];
-  HWY_ALIGN std::int64_t place[kMostStates];
-};
-
-template <class Noise>
-HWY_INLINE void turn_first(const NoisyMove& move, const double* states, std::size_t count, const Noise& noise,
-                           Headings& out) {
-  const Doubles d;
-  const hn::RebindToSigned<Doubles> di;
-  const NoisyPart turn1(move.turn1, move.sigma_turn1, Noise::kUnit);
-  const std::int64_t last = kHeadings - 1;
-  const D bias = hn::Set(d, rounding_bias(d));
-  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    D x, y, theta;
-    hn::LoadInterleaved3(d, states + 3 * i, x, y, theta);
-    const auto small = hn::Lt(hn::Abs(theta), hn::Set(d, kLargestHeading));
-    if (HWY_UNLIKELY(!hn::AllTrue(d, small))) theta = normalized_exactly(theta);
-    const D heading = hn::Add(theta, turn1.at(noise.turn1 + i));
-    const D number = hn::Add(hn::Mul(heading, hn::Set(d, kHeadings / kTwoPi)), bias);
-    const D closest = hn::Mul(hn::Sub(number, bias), hn::Set(d, kTwoPi / kHeadings));
-    const auto wrapped = hn::And(hn::BitCast(di, number), hn::Set(di, last));
-    hn::Store(heading, d, out.heading + i);
-    hn::Store(hn::Sub(heading, closest), d, out.rest + i);
-    hn::Store(hn::Add(wrapped, wrapped), di, out.place + i);
-  }
-}
-
 struct Direction {
   D cosine, sine;
 };
 
+// The low bits of a number count the multiples.
+HWY_INLINE const double* pair_at(const double* table, std::int64_t number) {
+  return table + 2 * (static_cast<std::size_t>(number) % kHeadings);
+}
+
 #if HWY_TARGET == HWY_SCALAR
 HWY_INLINE Direction looked_up(const double* table, const std::int64_t* place) {
   const Doubles d;
-  return {hn::Set(d, table[*place]), hn::Set(d, table[*place + 1])};
+  const double* const pair = pair_at(table, *place);
+  return {hn::Set(d, pair[0]), hn::Set(d, pair[1])};
 }
 #else
 // The pairs at every other place, from this one on.
@@ -146,7 +124,7 @@ template <std::size_t Lanes>
 HWY_INLINE auto pairs(const double* table, const std::int64_t* place) {
   const hn::CappedTag<double, Lanes> d;
   if constexpr (Lanes == 2) {
-    return hn::Load(d, table + *place);
+    return hn::Load(d, pair_at(table, *place));
   } else {
     return hn::Combine(d, pairs<Lanes / 2>(table, place + Lanes / 2), pairs<Lanes / 2>(table, place));
   }
@@ -160,15 +138,17 @@ HWY_INLINE Direction looked_up(const double* table, const std::int64_t* place) {
 #endif
 
 // Steps of a length towards a heading: first towards the closest one of the table, then turned by what is
-// left, at most 0.0062: the polynomials of Taylor leave out 1e-16.
+// left, at most 1 / 128: the polynomials of Taylor, the last one of the cosine moved a little towards what it
+// leaves out, are right to 1e-16.
 struct Towards {
   Direction table;
   D rest, cosine, sine_ratio;
 
   HWY_INLINE Towards(const Direction& closest, D left) : table(closest), rest(left) {
     const Doubles d;
+    constexpr double kMostSquared = 0.25 / (kPerRadian * kPerRadian);
     const D z = hn::Mul(rest, rest);
-    cosine = horner(d, z, hn::Set(d, 1.0 / 24.0), -0.5, 1.0);
+    cosine = horner(d, z, hn::Set(d, 1.0 / 24.0 - 0.896 * kMostSquared / 720.0), -0.5, 1.0);
     sine_ratio = horner(d, z, hn::Set(d, 1.0 / 120.0), -1.0 / 6.0, 1.0);
   }
 
@@ -179,26 +159,69 @@ struct Towards {
   }
 };
 
-template <class Noise>
-HWY_INLINE void drive_and_turn(const NoisyMove& move, double* states, std::size_t count, const Noise& noise,
-                               const Headings& from, const double* table) {
+// Headings that the table does not have, or that are not numbers: rare. Others keep all their bits.
+HWY_NOINLINE D turned_carefully(D theta, D turn1) {
   const Doubles d;
-  const NoisyPart drive(move.drive, move.sigma_drive, Noise::kUnit);
+  const auto small = hn::Lt(hn::Abs(theta), hn::Set(d, kLargestHeading));
+  if (!hn::AllTrue(d, small)) theta = normalized_exactly(theta);
+  const D heading = hn::Add(theta, turn1);
+  const auto beyond = hn::Gt(hn::Abs(heading), hn::Set(d, kLargestInTable));
+  return hn::IfThenElse(beyond, normalized(heading), heading);
+}
+
+// At most kLargestInTable.
+HWY_INLINE D turned(D theta, D turn1) {
+  const Doubles d;
+  const D heading = hn::Add(theta, turn1);
+  const auto in_table = hn::Le(hn::Abs(heading), hn::Set(d, kLargestInTable));
+  return HWY_LIKELY(hn::AllTrue(d, in_table)) ? heading : turned_carefully(theta, turn1);
+}
+
+// What the first pass finds of the states of a batch: their headings after the second turn; the place in the
+// table of what is closest to those after the first turn, and the rest.
+struct Headings {
+  HWY_ALIGN double second[kMostStates];
+  HWY_ALIGN double rest[kMostStates];
+  HWY_ALIGN std::int64_t place[kMostStates];
+};
+
+template <class Noise>
+HWY_INLINE void turn(const NoisyMove& move, const double* states, std::size_t count, const Noise& noise,
+                     Headings& out) {
+  const Doubles d;
+  const hn::RebindToSigned<Doubles> di;
+  const NoisyPart turn1(move.turn1, move.sigma_turn1, Noise::kUnit);
   const NoisyPart turn2(move.turn2, move.sigma_turn2, Noise::kUnit);
+  // Adding 1.5 times the power of two from which on doubles are whole multiples of 1 / kPerRadian.
+  const D bias = hn::Set(d, rounding_bias(d) / kPerRadian);
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    D x, y, theta;
+    hn::LoadInterleaved3(d, states + 3 * i, x, y, theta);
+    const D heading = turned(theta, turn1.at(noise.turn1 + i));
+    const D number = hn::Add(heading, bias);
+    hn::Store(normalized(hn::Add(heading, turn2.at(noise.turn2 + i))), d, out.second + i);
+    hn::Store(hn::Sub(heading, hn::Sub(number, bias)), d, out.rest + i);
+    hn::Store(hn::BitCast(di, number), di, out.place + i);
+  }
+}
+
+template <class Noise>
+HWY_INLINE void drive(const NoisyMove& move, double* states, std::size_t count, const Noise& noise,
+                      const Headings& from, const double* table) {
+  const Doubles d;
+  const NoisyPart ahead(move.drive, move.sigma_drive, Noise::kUnit);
   const NoisyPart aside(move.aside, move.sigma_aside, Noise::kUnit);
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const D heading = hn::Load(d, from.heading + i);
     const Towards towards(looked_up(table, from.place + i), hn::Load(d, from.rest + i));
     D x, y, theta;
     hn::LoadInterleaved3(d, states + 3 * i, x, y, theta);
-    const auto [dx, dy] = towards.step(drive.at(noise.drive + i));
+    const auto [dx, dy] = towards.step(ahead.at(noise.drive + i));
     x = hn::Add(x, dx), y = hn::Add(y, dy);
     if constexpr (Noise::kAside) {
       const auto [ax, ay] = towards.step(aside.at(noise.aside + i));
       x = hn::Sub(x, ay), y = hn::Add(y, ax);
     }
-    theta = normalized(hn::Add(heading, turn2.at(noise.turn2 + i)));
-    hn::StoreInterleaved3(x, y, theta, d, states + 3 * i);
+    hn::StoreInterleaved3(x, y, hn::Load(d, from.second + i), d, states + 3 * i);
   }
 }
 
@@ -207,8 +230,8 @@ template <class Noise>
 HWY_INLINE void move_vectors(const NoisyMove& move, double* states, std::size_t count, const Noise& noise,
                              const double* table) {
   Headings headings;
-  turn_first(move, states, count, noise, headings);
-  drive_and_turn(move, states, count, noise, headings, table);
+  turn(move, states, count, noise, headings);
+  drive(move, states, count, noise, headings, table);
 }
 
 template <class Noise>
@@ -248,9 +271,8 @@ const double* heading_table() {
   alignas(64) static const HeadingTable table = [] {
     HeadingTable made;
     for (std::size_t k = 0; k < kHeadings; ++k) {
-      // As turn_first has it, to the last digit: what is left is then exact.
       const double number = static_cast<double>(k) - (k < kHeadings / 2 ? 0.0 : kHeadings);
-      const double heading = number * (kTwoPi / kHeadings);
+      const double heading = number / kPerRadian;
       made[2 * k] = std::cos(heading), made[2 * k + 1] = std::sin(heading);
     }
     return made;
