@@ -3,7 +3,6 @@
 #include "cairn/core/batch_math.hpp"
 #include "cairn/core/errors.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace cairn {
@@ -15,7 +14,7 @@ constexpr double kSmallestExponent = 1e-4;
 double tempered_ess(std::span<const double> priors, std::span<const double> likelihoods, double exponent,
                     std::vector<double>& scratch) {
   for (std::size_t i = 0; i < scratch.size(); ++i) scratch[i] = priors[i] + exponent * likelihoods[i];
-  const double largest = *std::max_element(scratch.begin(), scratch.end());
+  const double largest = largest_of(scratch);
   exp_all(scratch, -largest, scratch);
   const double sum = sum_of(scratch);
   return sum * sum / sum_of_squares(scratch);

@@ -3,14 +3,13 @@
 #include "cairn/core/batch_math.hpp"
 #include "cairn/core/errors.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace cairn {
 
 double normalize_weights(std::span<double> log_weights, std::vector<double>& weights) {
   CAIRN_ASSERT(!log_weights.empty());
-  const double largest = *std::max_element(log_weights.begin(), log_weights.end());
+  const double largest = largest_of(log_weights);
   weights.resize(log_weights.size());
   exp_all(log_weights, -largest, weights);
   const double sum = sum_of(weights), squares = sum_of_squares(weights);

@@ -79,6 +79,24 @@ void sine_cosine_kernel(const double* angles, double* sine, double* cosine, std:
   std::copy_n(rest_cosine, count - i, cosine + i);
 }
 
+double largest_kernel(const double* values, std::size_t count) {
+  const Doubles d;
+  constexpr std::size_t kLanes = hn::MaxLanes(Doubles()), kVectors = 4;
+  double largest = values[0];
+  D most[kVectors];
+  for (D& m : most) m = hn::Set(d, largest);
+  std::size_t i = 0;
+  for (; i + kVectors * kLanes <= count; i += kVectors * kLanes) {
+    HWY_UNROLL(4)
+    for (std::size_t v = 0; v < kVectors; ++v)
+      most[v] = hn::Max(most[v], hn::LoadU(d, values + i + v * kLanes));
+  }
+  const D of_all = hn::Max(hn::Max(most[0], most[1]), hn::Max(most[2], most[3]));
+  largest = hn::GetLane(hn::MaxOfLanes(d, of_all));
+  for (; i < count; ++i) largest = std::max(largest, values[i]);
+  return largest;
+}
+
 // Eight partial sums, whatever the lanes.
 double dot_kernel(const double* HWY_RESTRICT a, const double* HWY_RESTRICT b, std::size_t count) {
   constexpr std::size_t kSums = 8, kLanes = hn::MaxLanes(Doubles()), kVectors = kSums / kLanes;
@@ -110,6 +128,7 @@ namespace {
 
 HWY_EXPORT(exp_kernel);
 HWY_EXPORT(sine_cosine_kernel);
+HWY_EXPORT(largest_kernel);
 HWY_EXPORT(dot_kernel);
 
 }  // namespace
@@ -122,6 +141,11 @@ void exp_all(std::span<const double> values, double offset, std::span<double> ou
 void sine_cosine_all(std::span<const double> angles, std::span<double> sine, std::span<double> cosine) {
   CAIRN_ASSERT(sine.size() == angles.size() && cosine.size() == angles.size());
   HWY_DYNAMIC_DISPATCH(sine_cosine_kernel)(angles.data(), sine.data(), cosine.data(), angles.size());
+}
+
+double largest_of(std::span<const double> values) {
+  CAIRN_ASSERT(!values.empty());
+  return HWY_DYNAMIC_DISPATCH(largest_kernel)(values.data(), values.size());
 }
 
 double sum_of(std::span<const double> values) {

@@ -15,6 +15,9 @@ void exp_all(std::span<const double> values, double offset, std::span<double> ou
 /// sine[i], cosine[i] of angles[i], |angle| < 1e6, within 2^-52. @pre equal sizes
 void sine_cosine_all(std::span<const double> angles, std::span<double> sine, std::span<double> cosine);
 
+/// The largest of them. @pre not empty, all numbers
+double largest_of(std::span<const double> values);
+
 /// The sum in a fixed order: eight partial sums side by side, added in the end.
 double sum_of(std::span<const double> values);
 

@@ -73,6 +73,18 @@ TEST(SineCosineAll, EqualTheLibraryOnEveryPath) {
   });
 }
 
+TEST(LargestOf, IsFoundWhereverItIsOnEveryPath) {
+  test::on_every_simd_path([&](SimdPath path) {
+    for (const std::size_t n : {1u, 2u, 7u, 16u, 33u, 65u}) {
+      for (std::size_t at = 0; at < n; ++at) {
+        std::vector<double> values(n, -1e300);
+        values[at] = -3.0;
+        EXPECT_EQ(largest_of(values), -3.0) << name_of(path) << ' ' << n << ' ' << at;
+      }
+    }
+  });
+}
+
 TEST(SumOf, AddsAllOfThem) {
   for (std::size_t n = 0; n < 40; ++n) {
     std::vector<double> values(n);

@@ -39,7 +39,7 @@ void fill_numbers(const std::uint8_t* rows, std::int16_t* numbers) {
 using Bytes = hn::ScalableTag<std::uint8_t>;
 using B = hn::Vec<Bytes>;
 
-// Two vectors of blocks side by side: one is a long chain of operations.
+// Three vectors of blocks side by side: one is a long chain of operations.
 void fill_bytes(const PhiloxCounter& first, const PhiloxKey& key, std::uint8_t* HWY_RESTRICT bytes) {
   const PhiloxLongs d;
   const hn::Repartition<std::uint8_t, PhiloxLongs> d8;
@@ -50,17 +50,15 @@ void fill_bytes(const PhiloxCounter& first, const PhiloxKey& key, std::uint8_t* 
     hn::Store(hn::BitCast(d8, w10), d8, bytes + 8 * block);
     hn::Store(hn::BitCast(d8, w32), d8, bytes + Normal3::kBytes / 2 + 8 * block);
   };
-  std::size_t b = 0;
-  for (; b + 2 * lanes <= Normal3::kBlocks; b += 2 * lanes) {
-    PhiloxState low = blocks.three_rounds(b), high = blocks.three_rounds(b + lanes);
-    blocks.middle_rounds(low, high);
+  static_assert(Normal3::kBlocks % (3 * hn::MaxLanes(PhiloxLongs())) == 0);
+  for (std::size_t b = 0; b < Normal3::kBlocks; b += 3 * lanes) {
+    PhiloxState low = blocks.three_rounds(b), middle = blocks.three_rounds(b + lanes);
+    PhiloxState high = blocks.three_rounds(b + 2 * lanes);
+    blocks.middle_rounds(low, middle, high);
     store(low, b);
-    store(high, b + lanes);
+    store(middle, b + lanes);
+    store(high, b + 2 * lanes);
   }
-  if (b == Normal3::kBlocks) return;
-  PhiloxState rest = blocks.three_rounds(b), unused = rest;
-  blocks.middle_rounds(rest, unused);
-  store(rest, b);
 }
 
 // Sixteen places of a table at once.

@@ -83,13 +83,11 @@ class PhiloxBlocks {
             hn::Xor(hn::ShiftRight<32>(first), round3_), first};
   }
 
-  // Up to the last round but one, two states side by side: each is one long chain of operations.
-  HWY_INLINE void middle_rounds(PhiloxState& a, PhiloxState& b) const {
+  // Up to the last round but one, several states side by side: each is one long chain of operations.
+  template <class... States>
+  HWY_INLINE void middle_rounds(States&... states) const {
     HWY_UNROLL(10)
-    for (int r = 3; r < Rounds - 1; ++r) {
-      a.round(key0_[r], key1_[r]);
-      b.round(key0_[r], key1_[r]);
-    }
+    for (int r = 3; r < Rounds - 1; ++r) (states.round(key0_[r], key1_[r]), ...);
   }
 
   // Pairs of words as they leave the last round: word 1 or 3 in the lower half of a lane, 0 or 2 in the

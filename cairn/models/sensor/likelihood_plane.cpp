@@ -1,6 +1,5 @@
 #include "cairn/models/sensor/likelihood_plane.hpp"
 
-#include "cairn/core/angle.hpp"
 #include "cairn/core/errors.hpp"
 #include "cairn/models/sensor/likelihood_plane_kernels.hpp"
 
@@ -10,11 +9,6 @@
 
 namespace cairn {
 namespace {
-
-// Positions and end points beyond are as good as anywhere off the map: no grid is larger. Those that are not
-// near are put at 4 times as much along both axes: no turn and no beam brings them back onto the map.
-constexpr double kFarAway_cells = 1 << 20;
-constexpr std::size_t kLargestVector = 16;  // floats
 
 // Distances occur in few different values: each is worked out once.
 class CodeOfDistance {
@@ -99,34 +93,19 @@ BeamsInCells LikelihoodPlane::in_cells(std::span<const Point2> points) const {
   return beams;
 }
 
-// Poses as the kernel wants them: in cells of the plane, whose first ones are the border.
-void LikelihoodPlane::put_in_cells(std::span<const Pose2> states, PoseBlock& block) const {
-  const double c = std::cos(T_grid_map_.theta) * cells_per_m_, s = std::sin(T_grid_map_.theta) * cells_per_m_;
-  const double x0 = T_grid_map_.x * cells_per_m_ + 1.0, y0 = T_grid_map_.y * cells_per_m_ + 1.0;
-  block.count = 0;
-  for (const Pose2& state : states) {
-    const double x = x0 + c * state.x - s * state.y, y = y0 + s * state.x + c * state.y;
-    double heading = state.theta + T_grid_map_.theta;
-    if (!(heading >= -kPi && heading < kPi)) heading = normalize_angle(heading);
-    const bool near = std::abs(x) < kFarAway_cells && std::abs(y) < kFarAway_cells && !std::isnan(heading);
-    block.x[block.count] = static_cast<float>(near ? x : 4.0 * kFarAway_cells);
-    block.y[block.count] = static_cast<float>(near ? y : 4.0 * kFarAway_cells);
-    block.heading[block.count++] = static_cast<float>(near ? heading : 0.0);
-  }
-  for (std::size_t i = block.count; i < PoseBlock::kCapacity && i % kLargestVector != 0; ++i)
-    block.heading[i] = 0.0f;
-}
-
 void LikelihoodPlane::sum_codes(const BeamsInCells& beams, std::span<const Pose2> states,
                                 std::span<std::uint32_t> sums) const {
   CAIRN_ASSERT(sums.size() == states.size());
   const bool narrow = codes() == Codes::k8Bit;
   const LikelihoodPlaneView plane{narrow ? narrow_.data() : nullptr, wide_.data(), columns_, rows_};
   const BeamsView view{beams.x.data(), beams.y.data(), beams.count};
+  const PlaneFrame frame{std::cos(T_grid_map_.theta) * cells_per_m_,
+                         std::sin(T_grid_map_.theta) * cells_per_m_, T_grid_map_.x * cells_per_m_ + 1.0,
+                         T_grid_map_.y * cells_per_m_ + 1.0, T_grid_map_.theta};
   PoseBlock block;
   for (std::size_t begin = 0; begin < states.size(); begin += PoseBlock::kCapacity) {
     const std::size_t count = std::min(PoseBlock::kCapacity, states.size() - begin);
-    put_in_cells(states.subspan(begin, count), block);
+    put_in_cells(frame, states.subspan(begin, count), block);
     cairn::sum_codes(plane, view, block);
     std::copy_n(block.sums.begin(), count, sums.begin() + static_cast<std::ptrdiff_t>(begin));
   }

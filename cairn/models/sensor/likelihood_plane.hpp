@@ -63,7 +63,6 @@ class LikelihoodPlane {
  private:
   double value_at(double column, double row) const;
   Eigen::Vector3d interpolate_at(const Point2& p_cells) const;
-  void put_in_cells(std::span<const Pose2> states, PoseBlock& block) const;
   template <class Code>
   void fill(const DistanceField& field, const std::function<double(double)>& log_likelihood,
             LargeVector<Code>& codes);

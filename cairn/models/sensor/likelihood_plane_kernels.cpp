@@ -1,6 +1,10 @@
 #include "cairn/models/sensor/likelihood_plane_kernels.hpp"
 
+#include "cairn/core/angle.hpp"
+#include "cairn/core/errors.hpp"
+
 #include <algorithm>
+#include <cmath>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "cairn/models/sensor/likelihood_plane_kernels.cpp"
@@ -12,8 +16,62 @@
 #include "cairn/maps/cell_places-inl.h"
 // clang-format on
 
+#ifndef CAIRN_MODELS_SENSOR_LIKELIHOOD_PLANE_POSES_
+#define CAIRN_MODELS_SENSOR_LIKELIHOOD_PLANE_POSES_
+namespace cairn {
+namespace {
+
+// One pose, whatever it is.
+void put_one(const PlaneFrame& f, const Pose2& state, std::size_t i, PoseBlock& block) {
+  const double x = f.x + f.cosine * state.x - f.sine * state.y;
+  const double y = f.y + f.sine * state.x + f.cosine * state.y;
+  double heading = state.theta + f.theta;
+  if (!(heading >= -kPi && heading < kPi)) heading = normalize_angle(heading);
+  const bool near = std::abs(x) < kFarAway_cells && std::abs(y) < kFarAway_cells && !std::isnan(heading);
+  block.x[i] = static_cast<float>(near ? x : 4.0 * kFarAway_cells);
+  block.y[i] = static_cast<float>(near ? y : 4.0 * kFarAway_cells);
+  block.heading[i] = static_cast<float>(near ? heading : 0.0);
+}
+
+}  // namespace
+}  // namespace cairn
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace cairn::HWY_NAMESPACE {
+
+using Doubles = hn::ScalableTag<double>;
+
+// A vector of poses that are near and turned by less than pi; false, and nothing done, if one is not.
+HWY_INLINE bool put_vector(const PlaneFrame& f, const double* states, std::size_t i, PoseBlock& block) {
+  const Doubles d;
+  const hn::Rebind<float, Doubles> d32;
+  hn::Vec<Doubles> map_x, map_y, theta;
+  hn::LoadInterleaved3(d, states, map_x, map_y, theta);
+  const auto c = hn::Set(d, f.cosine), s = hn::Set(d, f.sine), far = hn::Set(d, kFarAway_cells);
+  const auto x = hn::Sub(hn::Add(hn::Set(d, f.x), hn::Mul(c, map_x)), hn::Mul(s, map_y));
+  const auto y = hn::Add(hn::Add(hn::Set(d, f.y), hn::Mul(s, map_x)), hn::Mul(c, map_y));
+  const auto heading = hn::Add(theta, hn::Set(d, f.theta));
+  const auto near = hn::And(hn::Lt(hn::Abs(x), far), hn::Lt(hn::Abs(y), far));
+  if (!hn::AllTrue(d, hn::And(near, hn::Lt(hn::Abs(heading), hn::Set(d, kPi))))) return false;
+  hn::StoreU(hn::DemoteTo(d32, x), d32, &block.x[i]);
+  hn::StoreU(hn::DemoteTo(d32, y), d32, &block.y[i]);
+  hn::StoreU(hn::DemoteTo(d32, heading), d32, &block.heading[i]);
+  return true;
+}
+
+void put_in_cells(const PlaneFrame& frame, std::span<const Pose2> states, PoseBlock& block) {
+  constexpr std::size_t kLanes = hn::MaxLanes(Doubles()), kFloats = hn::MaxLanes(Places::Floats());
+  const PlaneFrame f = frame;
+  std::size_t i = 0;
+  for (; i + kLanes <= states.size(); i += kLanes) {
+    if (HWY_LIKELY(put_vector(f, &states[i].x, i, block))) continue;
+    for (std::size_t k = i; k < i + kLanes; ++k) put_one(f, states[k], k, block);
+  }
+  for (; i < states.size(); ++i) put_one(f, states[i], i, block);
+  block.count = states.size();
+  for (; i < PoseBlock::kCapacity && i % kFloats != 0; ++i) block.heading[i] = 0.0f;
+}
 
 constexpr std::size_t kBeamsAtOnce = 256;
 
@@ -98,7 +156,14 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace cairn {
 
+HWY_EXPORT(put_in_cells);
 HWY_EXPORT(sum_codes);
+
+void put_in_cells(const PlaneFrame& frame, std::span<const Pose2> states, PoseBlock& block) {
+  CAIRN_ASSERT(states.size() <= PoseBlock::kCapacity);
+  static_assert(sizeof(Pose2) == 3 * sizeof(double));
+  HWY_DYNAMIC_DISPATCH(put_in_cells)(frame, states, block);
+}
 
 void sum_codes(const LikelihoodPlaneView& plane, const BeamsView& beams, PoseBlock& poses) {
   HWY_DYNAMIC_DISPATCH(sum_codes)(plane, beams, poses);

@@ -1,8 +1,11 @@
 #pragma once
 
+#include "cairn/core/pose2.hpp"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace cairn {
 
@@ -36,6 +39,20 @@ struct PoseBlock {
   alignas(64) std::array<float, kCapacity> cosine;
   std::array<std::uint32_t, kCapacity> sums;  ///< the result
 };
+
+/// Where a plane's cells lie: T_grid_map in cells of the plane.
+struct PlaneFrame {
+  double cosine, sine;  ///< times cells per metre
+  double x, y;          ///< of the map's origin, border included
+  double theta;         ///< of the map's x-axis, rad
+};
+
+/// Positions and end points beyond are as good as anywhere off the map: no grid is larger. Those that are not
+/// near are put at 4 times as much along both axes: no turn and no beam brings them back onto the map.
+inline constexpr double kFarAway_cells = 1 << 20;
+
+/// Puts poses (T_map_base), at most kCapacity, into the block.
+void put_in_cells(const PlaneFrame& frame, std::span<const Pose2> states, PoseBlock& block);
 
 /// Sets sums[i] to the codes of all beams seen from pose i, added up.
 void sum_codes(const LikelihoodPlaneView& plane, const BeamsView& beams, PoseBlock& poses);
