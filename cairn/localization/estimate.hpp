@@ -14,23 +14,23 @@
 
 namespace cairn {
 
-/// What a localizer believes at one instant: the mean of the heaviest hypothesis at the newest measurement,
-/// carried on by the odometry.
+/// What a localizer believes at one instant: the mean of the heaviest hypothesis of its filter at the newest
+/// measurement, carried on by the odometry.
 struct Estimate {
   Time stamp;  ///< instant that the pose is of
   Pose2 T_map_base;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, theta) in the map frame: m, rad
   double ess = 0.0;                                      ///< effective sample size of the last update
   int particles = 0;
-  int hypotheses = 0;     ///< separate clusters of particles
-  double weight = 0.0;    ///< share of the belief in the heaviest one
+  int hypotheses = 0;     ///< separate places: clusters of particles, and what a global search finds
+  double weight = 0.0;    ///< share of the belief in the one that the pose is of
   double quality = 0.0;   ///< share of the last scan's beams that the map explains at T_map_base, 0..1
   Time belief_stamp{};    ///< of the newest measurement that the belief knows of: not after `stamp`
   Pose2 T_map_odom{};     ///< correction of the odometry: T_map_base = T_map_odom * T_odom_base
   Judgement judgement{};  ///< what the localizer thinks of it
 };
 
-/// A place where the robot may be: a group of particles that hangs together.
+/// A place where the robot may be: a group of particles that hangs together, or what a search has found.
 struct Hypothesis {
   Pose2 T_map_base;                                      ///< mean of this group alone
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of this group alone: (x, y, theta), m, rad
@@ -39,7 +39,9 @@ struct Hypothesis {
   std::uint32_t id = 0;  ///< the same as long as it is followed; counted from 1 in one run
 };
 
-/// All places that the belief holds at one instant, the heaviest first. Those of no weight are left out.
+/// All places that the belief holds at one instant: those of the filter, the heaviest first, which is the
+/// reported pose; behind them what a global search and a recovery hold possible. Those of no weight are left
+/// out.
 struct HypothesisSnapshot {
   Time stamp;
   std::vector<Hypothesis> hypotheses;

@@ -19,11 +19,11 @@ struct SamePlace {
 
 /// The places of a belief, followed from update to update.
 struct HypothesisTrack {
-  std::vector<Hypothesis> places;  ///< at the last update, heaviest first
+  std::vector<Hypothesis> places;  ///< at the last update, the believed one first
   std::uint32_t last_id = 0;
 
-  /// Of the heaviest place; 0 before the first update.
-  std::uint32_t heaviest() const { return places.empty() ? 0 : places.front().id; }
+  /// Of the believed place; 0 before the first update.
+  std::uint32_t believed() const { return places.empty() ? 0 : places.front().id; }
 };
 
 /// Follows hypotheses from update to update: gives each the age of the one that it continues. Heavier ones

@@ -32,9 +32,8 @@ class Localizer {
   /// the first measurement.
   virtual std::optional<Estimate> estimate() const = 0;
 
-  /// The separate places that the current belief holds, heaviest first, each with its own mean and
-  /// covariance: at the instant of estimate(). The heaviest one is the reported pose. Empty before the first
-  /// measurement.
+  /// The separate places that the current belief holds, the reported pose first, each with its own mean and
+  /// covariance: at the instant of estimate(). Empty before the first measurement.
   virtual HypothesisSnapshot hypotheses() const = 0;
 
   /// Sample of at most `at_most` particles of the current belief, for pictures.

@@ -167,6 +167,8 @@ void GlobalOptions::visit(OptionVisitor& v) {
   v.number({"look_spacing_rad", "or turned by this, radians"}, look_spacing_rad, {0.0, 7.0});
   v.integer({"search_every", "new ones until the search is repeated"}, search_every, {1, 10000});
   v.number({"look_beams", "as which each of them counts, in independent beams"}, look_beams, {0.01, 100000});
+  v.number({"most_million_cells", "no search on a larger map: it needs about 60 bytes per cell"},
+           most_million_cells, {0.0, 1e4});
 }
 
 void CgrOptions::visit(OptionVisitor& v) {

@@ -90,7 +90,7 @@ struct GlobalOptions {
       250.0;  ///< poses that the first scan of a robot that may be anywhere chooses from
   /// Distinct places that a search over the whole map keeps (global_search.hpp); 0: no search. Half of the
   /// first particles stand at those of the first scan, the others are chosen from the candidates.
-  int most_poses = 0;
+  int most_poses = 40;
   double search_sigma_m = 0.2;  ///< sigma_hit of the search: joined by odometry, the points are out of place
   double search_millions = 10.0;  ///< a search looks up at most this many million end points
   int search_looks = 40;          ///< measurements of the way that are remembered
@@ -98,6 +98,8 @@ struct GlobalOptions {
   double look_spacing_rad = 0.5;  ///< ... or turned by this
   int search_every = 4;           ///< new ones until the search is repeated, while the pose is not confirmed
   double look_beams = 2.0;        ///< as which each of them counts, in independent beams
+  /// A search takes about 60 bytes per cell: there is none on a larger map, and a warning says so.
+  double most_million_cells = 16.0;
 
   void visit(OptionVisitor& visitor);
 };

@@ -31,7 +31,7 @@ struct MonitorOptions {
   double scale = 1.0;          ///< of the reported log-odds
   double usual_memory = 0.98;  ///< share of the usual figures that outlives an update while the pose is right
   double crowded_share = 0.35;    ///< state crowded above this share of blocked beams
-  double ambiguous_weight = 0.9;  ///< state ambiguous below this weight of the heaviest place
+  double ambiguous_weight = 0.9;  ///< state ambiguous below this weight of the believed place
   double ambiguous_m = 1.0;       ///< or above this standard deviation of the position
   int blind_scans = 5;            ///< state sensor_fault after so many scans without a usable beam
 
@@ -43,7 +43,7 @@ struct MonitorInput {
   StreamId stream = 0;
   std::optional<BeamShares> seen;      ///< nullopt: this sensor cannot tell classes of beams
   double quality = 0.0;                ///< used instead: share that the map explains
-  std::span<const Hypothesis> places;  ///< heaviest first
+  std::span<const Hypothesis> places;  ///< the believed one first
   double innovation_m = 0.0;           ///< see Judgement
 };
 
@@ -54,7 +54,7 @@ struct MonitorMemory {
     int blind = 0;                  ///< scans in a row without a usable beam
   };
   std::vector<Stream> streams;
-  double log_odds = 0.0;       ///< that the heaviest place is the right one, but for the other places
+  double log_odds = 0.0;       ///< that the believed place is the right one, but for the other places
   double last_evidence = 0.0;  ///< of the last scan, for the pose
   double blocked = 0.0;        ///< share, averaged over some scans
 };
@@ -65,7 +65,7 @@ struct MonitorMemory {
 /// fit, in how far the explained share has fallen below what is usual for this sensor and map, and in the
 /// innovation. A crowd blocks beams; a wrong place lets them through walls.
 ///
-/// The reported probability is that of being right times the weight of the heaviest place.
+/// The reported probability is that of being right times the weight of the believed place.
 /// Immutable; deterministic; does not allocate after the first update of a stream.
 class Monitor {
  public:
@@ -76,10 +76,10 @@ class Monitor {
 
   Judgement update(MonitorMemory& memory, const MonitorInput& input) const;
 
-  /// Probability that the heaviest place is right, if it is one of those that the belief holds.
+  /// Probability that the believed place is right, if it is one of those that the belief holds.
   double right(const MonitorMemory& memory) const;
 
-  /// Another place has become the heaviest, or candidates came in: what was known of the old one is void.
+  /// Another place is believed now, or candidates came in: what was known of the old one is void.
   static void start_over(MonitorMemory& memory);
 
  private:

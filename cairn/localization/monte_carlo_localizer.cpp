@@ -46,20 +46,35 @@ std::optional<Recovery> make_recovery(const LocalizerOptions& options, const Gri
   return std::nullopt;
 }
 
-FusionParts compose(const LocalizerOptions& options, const std::vector<StreamInfo>& streams,
+// Likewise the search for a robot that may be anywhere.
+LocalizerOptions within_memory(LocalizerOptions options, const GridGeometry& map, const Start& start,
+                               Diagnostics& diagnostics) {
+  const double millions = static_cast<double>(map.size()) / 1e6;
+  if (start.T_map_base || options.global.most_poses == 0 || millions <= options.global.most_million_cells)
+    return options;
+  options.global.most_poses = 0;
+  diagnostics.warn(
+      "no search", "map of " + std::to_string(std::lround(millions)) + " million cells",
+      "only the first scan chooses where the robot may be, and a wrong place may be claimed: a search "
+      "takes about 60 bytes per cell; raise global.most_million_cells, or use a coarser map");
+  return options;
+}
+
+FusionParts compose(const LocalizerOptions& given, const std::vector<StreamInfo>& streams,
                     const MapLibrary& maps, const Start& start, std::uint64_t seed,
                     std::shared_ptr<const Executor> executor, std::unique_ptr<CostClock> cost_clock,
                     const PlaceIndices& places) {
-  options.validate();
+  given.validate();
   FusionParts parts;
-  parts.streams = bind_streams(options, streams, maps, places);
   const auto map = maps.main().grid();
+  const LocalizerOptions options = within_memory(given, map->geometry(), start, parts.diagnostics);
+  parts.streams = bind_streams(options, streams, maps, places);
   parts.filter = std::make_unique<ParticlePoseFilter>(make_filter(options, seed, executor, map.get()),
                                                       options.random_walk);
   if (start.T_map_base) {
     start_near(*start.T_map_base, map->geometry(), options.initial, *parts.filter);
   } else {
-    parts.global_search = GlobalSearch(options.global, seed);
+    parts.global_search = GlobalSearch(options.global);
     parts.global_start = std::make_unique<GlobalStart>(*map, options.global.candidates_per_m2, seed);
   }
   parts.cost_clock =

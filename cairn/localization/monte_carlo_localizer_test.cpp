@@ -196,6 +196,18 @@ TEST_F(MonteCarloLocalizerTest, SaysSoWhereTheMapIsTooLargeForARecovery) {
   EXPECT_EQ(warnings("no recovery"), 0);
 }
 
+TEST_F(MonteCarloLocalizerTest, SaysSoWhereTheMapIsTooLargeForAGlobalSearch) {
+  LocalizerOptions options;
+  options.global.most_million_cells = 0.001;
+  make(options);
+  EXPECT_EQ(warnings("no search"), 0) << "the start is known";
+  make(options, {});
+  EXPECT_EQ(warnings("no search"), 1);
+  options.global.most_poses = 0;
+  make(options, {});
+  EXPECT_EQ(warnings("no search"), 0) << "none was asked for";
+}
+
 TEST_F(MonteCarloLocalizerTest, CountsEventsOfStreamsThatTheTableLacks) {
   make();
   for (const StreamId stream : {StreamId{2}, StreamId{65535}}) {

@@ -127,7 +127,7 @@ PoseBelief::Application PoseBelief::update(const Event& event, const OdometryTra
   summarize(moved.T_before_after, since_s);
   if (informs && !anywhere) search(model, event);
   judge(model, event, moved.T_before_after);
-  if (!state_.search.searching) recover(model, event, moved.T_before_after, since_s);
+  recover(model, event, moved.T_before_after, since_s);
   GlobalSearch::temper(state_.search, state_.updated.judgement);
   return {informs, {model.beams(event.payload), static_cast<std::int64_t>(filter_->size())}};
 }
@@ -140,9 +140,9 @@ void PoseBelief::summarize(const Pose2& moved, double since_s) {
   std::vector<PoseHypothesis> both;
   std::span<const PoseHypothesis> places = of_particles;
   if (state_.search.searching) places = both = GlobalSearch::with_found(state_.search, of_particles);
-  const std::uint32_t heaviest = state_.track.heaviest();
+  const std::uint32_t believed = state_.track.believed();
   follow_hypotheses(places, moved, since_s, {}, state_.track, scratch_);
-  if (heaviest != 0 && state_.track.heaviest() != heaviest) Monitor::start_over(state_.monitor);
+  if (believed != 0 && state_.track.believed() != believed) Monitor::start_over(state_.monitor);
   state_.updated.T_map_base = places[0].mean;
   state_.updated.covariance = places[0].covariance;
   state_.updated.ess = now.ess;
@@ -168,7 +168,7 @@ void PoseBelief::judge(const StreamModel& model, const Event& event, const Pose2
                                    .innovation_m = state_.started ? apart(predicted, now.T_map_base) : 0.0});
 }
 
-// A robot that is still being looked for.
+// Where else a robot may be that is still being looked for.
 void PoseBelief::search(const StreamModel& model, const Event& event) {
   if (!global_search_.observe(state_.search, event.stream, model, event.payload, state_.track.places,
                               *filter_))
