@@ -16,6 +16,9 @@ constexpr double kSame_rad = 0.35;
 constexpr double kSure = 0.95;
 constexpr std::size_t kEnoughGlimpses = 8;
 constexpr double kNeighbour_m = 2.0;
+constexpr double kMostUnknown_s =
+    1.0;                     // the ends of a log, and a scan before the first odometry, are shorter
+constexpr int kSilent = 50;  // measurements of others, after which a stream counts as silent
 
 bool are_near(const Pose2& a, const Pose2& b, double within_m, double within_rad) {
   return distance(a, b) < within_m && std::abs(normalize_angle(a.theta - b.theta)) < within_rad;
@@ -34,10 +37,22 @@ std::vector<LocatedPose> GlobalSearch::begin(GlobalSearchMemory& memory, StreamI
 }
 
 void GlobalSearch::carry(GlobalSearchMemory& memory, const PoseControl& control) {
-  if (control.unknown_s > 0.0) memory = {};
+  memory.unknown_s += control.unknown_s;
+  if (memory.unknown_s > kMostUnknown_s) memory = {};
   const Pose2 T_now_before = inverse(control.T_before_after);
   for (Glimpse& glimpse : memory.glimpses) glimpse.T_now_then = T_now_before * glimpse.T_now_then;
   for (LocatedPose& place : memory.found) place.T_map_base = place.T_map_base * control.T_before_after;
+}
+
+// Whether a measurement is of the stream that is searched with.
+bool GlobalSearch::is_of(GlobalSearchMemory& memory, StreamId stream) {
+  memory.of_others = stream == memory.stream ? 0 : memory.of_others + 1;
+  if (memory.of_others == 0) return true;
+  if (memory.of_others < kSilent) return false;
+  memory.stream = stream;
+  memory.glimpses.clear();
+  memory.of_others = 0;
+  return true;
 }
 
 // The newest one is replaced as long as it is near the one before it. True if one more has come to stay.
@@ -56,7 +71,7 @@ bool GlobalSearch::remember(GlobalSearchMemory& memory, const Event::Payload& z)
 bool GlobalSearch::observe(GlobalSearchMemory& memory, StreamId stream, const StreamModel& model,
                            const Event::Payload& z, std::span<const Hypothesis> places,
                            const PoseFilter& filter) const {
-  if (!memory.searching || stream != memory.stream) return false;
+  if (!memory.searching || !is_of(memory, stream)) return false;
   if (!remember(memory, z) || ++memory.new_glimpses < options_.search_every) return false;
   memory.new_glimpses = 0;
   std::vector<Pose2> asked;

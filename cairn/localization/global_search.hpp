@@ -18,6 +18,8 @@ struct GlobalSearchMemory {
   std::vector<Glimpse> glimpses;   ///< of the way so far, the newest last
   int new_glimpses = 0;            ///< since the last search
   std::vector<LocatedPose> found;  ///< by the last search, the best first; carried on
+  double unknown_s = 0.0;          ///< of the way without odometry
+  int of_others = 0;               ///< measurements of other streams since the last of this one
 };
 
 /// Says when a robot that may be anywhere on the map is found, and where else it may be until then.
@@ -39,11 +41,12 @@ class GlobalSearch {
   std::vector<LocatedPose> begin(GlobalSearchMemory& memory, StreamId stream, const StreamModel& model,
                                  const Event::Payload& z) const;
 
-  /// The robot has moved. A way without odometry ends the search: what was seen before it cannot be joined
-  /// with what comes after.
+  /// The robot has moved. A second of way without odometry ends the search: what was seen before it cannot be
+  /// joined with what comes after.
   static void carry(GlobalSearchMemory& memory, const PoseControl& control);
 
-  /// A further measurement. Searches if enough new was seen.
+  /// A further measurement. Searches if enough new was seen. If the sensor that is searched with has fallen
+  /// silent, the search begins its way anew with this one.
   /// @param places of the belief: they are compared with what the search finds
   /// @return true if what is known to be possible has changed
   bool observe(GlobalSearchMemory& memory, StreamId stream, const StreamModel& model, const Event::Payload& z,
@@ -58,6 +61,7 @@ class GlobalSearch {
   static void temper(const GlobalSearchMemory& memory, Judgement& judgement);
 
  private:
+  static bool is_of(GlobalSearchMemory& memory, StreamId stream);
   bool remember(GlobalSearchMemory& memory, const Event::Payload& z) const;
   static bool confirms(const GlobalSearchMemory& memory, std::span<const Hypothesis> places,
                        const PoseFilter& filter);

@@ -102,9 +102,29 @@ TEST_F(GlobalSearchTest, AWayWithoutOdometryEndsIt) {
   filter_.compact_ = false;
   search_.begin(memory_, 0, model_, {});
   drive(5);
-  GlobalSearch::carry(memory_, {.T_before_after = {}, .unknown_s = 1.0});
+  GlobalSearch::carry(memory_, {.T_before_after = {}, .unknown_s = 0.6});
+  EXPECT_TRUE(memory_.searching) << "as at the end of a log";
+  GlobalSearch::carry(memory_, {.T_before_after = {}, .unknown_s = 0.6});
   EXPECT_FALSE(memory_.searching);
   EXPECT_EQ(drive(20), 0);
+}
+
+TEST_F(GlobalSearchTest, GoesOnWithAnotherStreamWhereItsOwnFallsSilent) {
+  const auto see = [&](int times, StreamId stream) {
+    for (int i = 0; i < times; ++i) {
+      GlobalSearch::carry(memory_, {.T_before_after = {0.6, 0.0, 0.0}});
+      search_.observe(memory_, stream, model_, {}, places_, filter_);
+    }
+  };
+  search_.begin(memory_, 0, model_, {});
+  see(40, 1);
+  EXPECT_EQ(model_.searches_, 1) << "it may be a pause";
+  see(1, 0);
+  see(40, 1);
+  EXPECT_EQ(model_.searches_, 1);
+  see(40, 1);
+  EXPECT_GT(model_.searches_, 1);
+  EXPECT_FALSE(memory_.searching) << "confirmed by the other one";
 }
 
 TEST_F(GlobalSearchTest, StandingStillGivesNoNewLooks) {

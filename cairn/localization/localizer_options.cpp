@@ -162,7 +162,7 @@ void GlobalOptions::visit(OptionVisitor& v) {
   v.number({"search_millions", "a search looks up at most this many million end points"}, search_millions,
            {0.01, 1e6});
   v.integer({"search_looks", "scans of the way that are remembered until the pose is confirmed"},
-            search_looks, {1, 10000});
+            search_looks, {8, 10000});
   v.number({"look_spacing_m", "they are this far apart, metres"}, look_spacing_m, {0.0, 100.0});
   v.number({"look_spacing_rad", "or turned by this, radians"}, look_spacing_rad, {0.0, 7.0});
   v.integer({"search_every", "new ones until the search is repeated"}, search_every, {1, 10000});

@@ -14,8 +14,8 @@ class People {
  public:
   /// Simulates everybody for as long as the robot drives. Who walks is drawn to a place chosen at random,
   /// keeps off walls, the others and the robot (Helbing & Molnar, "Social force model for pedestrian
-  /// dynamics", 1995), and chooses another place when there; whom the robot reaches all the same, steps aside.
-  /// Who stands, stands where the robot never comes near.
+  /// dynamics", 1995), and chooses another place when there; whom the robot reaches all the same, steps
+  /// aside. Who stands, stands where the robot never comes near.
   People(const World& world, const Trajectory& robot, std::uint64_t seed);
 
   /// Everybody at that time, as lasers see them.

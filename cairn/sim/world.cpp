@@ -101,6 +101,14 @@ void check_start(const WorldRobotOptions& robot, const Pose2& start, const std::
       "move it at least robot.radius_m (" + std::to_string(robot.radius_m).substr(0, 4) + ") away");
 }
 
+void check_crowd(const WorldPeopleOptions& people, const WorldRobotOptions& robot) {
+  const double touching_m = people.radius_m + robot.radius_m;
+  if (people.crowd == 0 || people.crowd_distance_m >= touching_m) return;
+  throw ConfigurationError(
+      "people.crowd_distance_m", "puts the crowd into the robot",
+      "make it at least robot.radius_m + people.radius_m (" + std::to_string(touching_m).substr(0, 4) + ")");
+}
+
 constexpr std::size_t kMostRecordedPoses = 1'800'000;  // ten hours
 
 // References jitter, by their own noise and by stamps that run backwards: a robot would not drive that. Each
@@ -193,6 +201,7 @@ World make_world(const WorldOptions& options, std::span<const Wall> floor, const
   check_sensors(options);
   Trajectory path = recorded_path(options.robot, recorded);
   const Pose2 start = path.empty() ? parse_world_pose("robot.start", options.robot.start) : path.front().pose;
+  check_crowd(options.people, options.robot);
   if (path.empty()) check_start(options.robot, start, walls.solid);
   const OccupancyGrid planning = draw(walls.solid, kPlanningResolution_m, start);
   if (path.empty()) check_enclosed(planning);  // maps of real floors have ragged edges

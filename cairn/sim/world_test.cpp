@@ -57,6 +57,8 @@ TEST(World, RefusesWhatDoesNotFitAndNamesTheKey) {
             "lasers.front.rate_hz");
   EXPECT_EQ(refusal([](WorldOptions& o) { o.robot.start = "0.1,3,0"; }), "robot.start");
   EXPECT_EQ(refusal([](WorldOptions& o) { o.robot.start = "20,3,0"; }), "robot.start");
+  EXPECT_EQ(refusal([](WorldOptions& o) { o.people.crowd = 4, o.people.crowd_distance_m = 0.5; }),
+            "people.crowd_distance_m");
   EXPECT_EQ(refusal([](WorldOptions& o) { o.doors.push_back({"d", "1,1", "1,1"}); }), "doors.d.to");
   EXPECT_EQ(refusal([](WorldOptions& o) {
               o.furniture.push_back({"box", "x", 1.0, 1.0, 0.0, "opaque", true, ""});

@@ -7,6 +7,7 @@ usage: tests/e2e/evaluate_test.py CAIRN [unittest arguments]
 import csv
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -77,7 +78,9 @@ class Evaluate(unittest.TestCase):
         error = [c for c in report["comparisons"] if c["metric"] == "ate_mean_m"]
         self.assertEqual(error[0]["difference"]["count"], 2)
         page = (self.folder / "out/index.html").read_text()
-        self.assertNotIn("http://", page.split('<script id="run"')[1].split("</script>")[0])
+        self.assertIn('<script id="run"', page)
+        self.assertIsNone(re.search(r"""<(script|link|img|iframe)[^>]*\s(src|href)\s*=\s*['"]?https?:|url\(\s*['"]?https?:""", page),
+                          "the page needs nothing from elsewhere")
         self.assertEqual(list((self.folder / "out/working").iterdir()), [])
 
     def test_a_cell_is_a_plain_command(self):
