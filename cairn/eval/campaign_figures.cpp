@@ -20,6 +20,8 @@ constexpr double kShownQuantiles = 0.03;  // of the distributions: the tails wou
 constexpr int kTimeSteps = 100;
 constexpr std::size_t kCurvePoints = 200;
 constexpr std::size_t kMapPoints = 6000;
+constexpr int kBins = 12;
+constexpr double kLeastError_m = 1e-3;  // of the logarithmic axes
 
 std::string file_name(const std::string& text) {
   std::string name;
@@ -95,8 +97,8 @@ SvgPlot error_distribution(const CampaignReport& report, const std::string& inpu
     series.name = variant;
     const std::size_t step = errors.size() / kCurvePoints + 1;
     for (std::size_t i = 0; i < errors.size(); i += step) {
-      series.points.push_back(
-          {std::max(1e-3, errors[i]), static_cast<double>(i + 1) / static_cast<double>(errors.size())});
+      series.points.push_back({std::max(kLeastError_m, errors[i]),
+                               static_cast<double>(i + 1) / static_cast<double>(errors.size())});
     }
   }
   return plot;
@@ -125,6 +127,79 @@ SvgPlot survival(const CampaignReport& report, const std::string& input,
     plot.series.push_back(std::move(series));
   }
   return plot;
+}
+
+// Of all runs that tell it, the smallest first.
+std::vector<double> sorted_metric(const CampaignReport& report, const std::string& input,
+                                  const std::string& variant, const char* metric) {
+  std::vector<double> values;
+  for (const CellResult& r : report.results) {
+    const auto value = r.metrics.find(metric);
+    if (r.input == input && (variant.empty() || r.variant == variant) && value != r.metrics.end() &&
+        std::isfinite(value->second))
+      values.push_back(value->second);
+  }
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+// The bins are as wide as each other by their ratio, and the same for all variants.
+SvgPlot final_errors(const CampaignReport& report, const std::string& input,
+                     const std::vector<std::string>& variants) {
+  SvgPlot plot{
+      input + ": histogram of the errors at the end", {"error [m]", true}, {"share of runs"}, false, {}};
+  const auto all = sorted_metric(report, input, "", "final_error_m");
+  if (all.empty()) return plot;
+  const double least = std::log(std::max(kLeastError_m, all.front()));
+  const double width = std::max(1e-3, std::log(std::max(kLeastError_m, all.back())) - least) / kBins;
+  for (const std::string& variant : variants) {
+    const auto errors = sorted_metric(report, input, variant, "final_error_m");
+    std::array<double, kBins> shares{};
+    for (const double error : errors) {
+      const int bin = static_cast<int>((std::log(std::max(kLeastError_m, error)) - least) / width);
+      shares[static_cast<std::size_t>(std::clamp(bin, 0, kBins - 1))] +=
+          1.0 / static_cast<double>(errors.size());
+    }
+    SvgSeries& series = plot.series.emplace_back();
+    series.name = variant;
+    for (std::size_t i = 0; i < kBins; ++i) {
+      const double bin = static_cast<double>(i);
+      series.points.push_back({std::exp(least + width * bin), shares[i]});
+      series.points.push_back({std::exp(least + width * (bin + 1.0)), shares[i]});
+    }
+  }
+  return plot;
+}
+
+std::size_t runs_of(const CampaignReport& report, const std::string& input, const std::string& variant) {
+  return static_cast<std::size_t>(
+      std::count_if(report.results.begin(), report.results.end(),
+                    [&](const CellResult& r) { return r.input == input && r.variant == variant; }));
+}
+
+// Runs that never converge leave the curve below one. @pre some have
+SvgPlot convergence(const CampaignReport& report, const std::string& input,
+                    const std::vector<std::string>& variants) {
+  SvgPlot plot{input + ": runs that have converged", {"time [s]"}, {"share of runs"}, false, {}};
+  const double end = sorted_metric(report, input, "", "converged_s").back();
+  for (const std::string& variant : variants) {
+    SvgSeries& series = plot.series.emplace_back();
+    series.name = variant;
+    series.points.push_back({0.0, 0.0});
+    for (const double t : sorted_metric(report, input, variant, "converged_s")) {
+      const double before = series.points.back().y;
+      series.points.push_back({t, before});
+      series.points.push_back({t, before + 1.0 / static_cast<double>(runs_of(report, input, variant))});
+    }
+    series.points.push_back({end, series.points.back().y});
+  }
+  return plot;
+}
+
+// From a known start, runs have converged from the beginning.
+bool begins_unknown(const CampaignReport& report, const std::string& input) {
+  const auto times = sorted_metric(report, input, "", "converged_s");
+  return !times.empty() && times.back() > 0.0;
 }
 
 // A line for each recipe, its sets of parameters in their order.
@@ -164,8 +239,9 @@ std::vector<CampaignFigure> localization_figures(const CampaignReport& report) {
       figures.push_back({"cost-" + file_name(input), render_svg(panels, 2)});
       continue;
     }
-    const SvgPlot panels[] = {error_map(report, input), error_distribution(report, input, variants),
-                              survival(report, input, variants)};
+    std::vector<SvgPlot> panels{error_map(report, input), error_distribution(report, input, variants),
+                                survival(report, input, variants), final_errors(report, input, variants)};
+    if (begins_unknown(report, input)) panels.push_back(convergence(report, input, variants));
     figures.push_back({file_name(input), render_svg(panels, 3)});
   }
   return figures;

@@ -13,10 +13,11 @@ struct CampaignFigure {
 };
 
 /// The results as pictures for documents. Task localize: for each input the error over the map of the
-/// baseline (as Biswas & Veloso, IROS 2013, Fig. 2), the distribution of the errors of all variants (Fig. 4b)
-/// and the share of runs within 1 m over time; and, where recipes have several sets of parameters, error and
-/// computing time of each (`cost`). Task sensors: for each input the distributions of the sensors' errors,
-/// real and simulated.
+/// baseline (as Biswas & Veloso, IROS 2013, Fig. 2), the distribution of the errors of all variants, the
+/// share of runs within 1 m over time, the histogram of the errors at the end (Fig. 4b) and, where the start
+/// is not known, the share of runs that have converged over time; and, where recipes have several sets of
+/// parameters, error and computing time of each (`cost`). Task sensors: for each input the distributions of
+/// the sensors' errors, real and simulated.
 std::vector<CampaignFigure> campaign_figures(const CampaignReport& report);
 
 /// Mean distance of two distributions that are told by the same number of evenly spread quantiles

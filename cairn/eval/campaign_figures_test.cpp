@@ -9,6 +9,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 CellResult run(const std::string& variant, std::uint64_t seed, double error) {
   CellResult result;
@@ -42,6 +43,23 @@ TEST(CampaignFigures, OnePictureForEachInput) {
   EXPECT_EQ(figures[0].name, "an-office");
   EXPECT_THAT(figures[0].svg, HasSubstr("runs within 1 m"));
   EXPECT_THAT(figures[0].svg, HasSubstr(">cgr</text>"));
+}
+
+TEST(CampaignFigures, HistogramsAndCurvesOfConvergenceAreDrawnWhereThereIsSomethingToDraw) {
+  std::vector<CellResult> results;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    results.push_back(run("mcl", seed, 0.1));
+    results.back().metrics["final_error_m"] = seed == 4 ? 10.0 : 0.01;
+    results.back().metrics["converged_s"] = 0.0;
+  }
+  const std::string known = campaign_figures(report_of({}, results))[0].svg;
+  EXPECT_THAT(known, HasSubstr("histogram of the errors at the end"));
+  EXPECT_THAT(known, Not(HasSubstr("runs that have converged")));
+  results[0].metrics["converged_s"] = 3.0;
+  const std::string unknown = campaign_figures(report_of({}, results))[0].svg;
+  EXPECT_THAT(unknown, HasSubstr("runs that have converged"));
+  results[0].metrics["final_error_m"] = 10.0;
+  EXPECT_NE(campaign_figures(report_of({}, results))[0].svg, unknown) << "two of four are at 10 m now";
 }
 
 // Each run errs by `error` and twice that.
