@@ -135,7 +135,8 @@ class Walk {
     if (length(away) >= touching_m_) return;
     const double straight = std::atan2(away.y, away.x);
     for (int i = 0; i <= kDirections; ++i) {
-      const double turned = 2.0 * std::numbers::pi / kDirections * ((i + 1) / 2);
+      const int turns = (i + 1) / 2;
+      const double turned = 2.0 * std::numbers::pi / kDirections * turns;
       const double angle = straight + (i % 2 == 0 ? turned : -turned);
       const Point2 beside = robot + touching_m_ * Point2{std::cos(angle), std::sin(angle)};
       if (!world_.planner.is_free(beside)) continue;
