@@ -72,6 +72,14 @@ TEST_F(PoseBeliefTest, ARobotThatIsCarriedAwayHasRivalsAndIsFoundAgain) {
   EXPECT_TRUE(claims_to_know(estimates_.back()));
 }
 
+// Carried away before the search has confirmed anything: the search does not touch the particles, so that
+// recovery must work beside it.
+TEST_F(PoseBeliefTest, ARobotThatIsStillBeingLookedForIsRecoveredToo) {
+  make(LocalizerOptions{}, {});
+  carry_away();
+  EXPECT_LT(error_at_the_end(kElsewhere), 0.15);
+}
+
 TEST_F(PoseBeliefTest, NoEvidenceNeedBeAddedWhereTheMonitorDoubts) {
   LocalizerOptions options;
   options.recovery.sure = 1000.0;
