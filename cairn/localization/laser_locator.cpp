@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/LU>
-
 namespace cairn {
 namespace {
 
@@ -19,17 +17,6 @@ constexpr int kBeamsOfJoined = 40;   // likewise, where many places are looked f
 const Eigen::Matrix3d kSpread = Eigen::Vector3d(0.01, 0.01, 0.0025).asDiagonal();
 
 const LaserScan& scan_of(const Event::Payload& z) { return *std::get<std::shared_ptr<const LaserScan>>(z); }
-
-double free_volume(const OccupancyGrid& map) {
-  const double cell_m = map.geometry().resolution_m;
-  return std::max(1.0, static_cast<double>(map.count(CellState::kFree))) * cell_m * cell_m * kTwoPi;
-}
-
-// Laplace: the integral of the likelihood around a mode.
-double log_mass(const LocatedPose& mode) {
-  const double determinant = std::max(mode.covariance.determinant(), 1e-18);
-  return mode.log_likelihood + 1.5 * std::log(kTwoPi) + 0.5 * std::log(determinant);
-}
 
 }  // namespace
 
@@ -101,30 +88,44 @@ void LaserLocator::weigh(std::span<const PathLook> path, std::vector<LocatedPose
   places = std::move(kept);
 }
 
-std::vector<Point2> LaserLocator::joined(std::span<const Glimpse> glimpses, int beams) const {
+std::vector<Point2> LaserLocator::joined(std::span<const Glimpse> glimpses, int beams,
+                                         double farther_than_m) const {
   std::vector<Point2> points;
   for (const Glimpse& glimpse : glimpses) {
-    for (const Point2& p : select_end_points(scan_of(glimpse.z), T_base_sensor_, limits_, beams))
-      points.push_back(glimpse.T_now_then * p);
+    for (const Point2& p : select_end_points(scan_of(glimpse.z), T_base_sensor_, limits_, beams)) {
+      if (from_sensor(p) >= farther_than_m) points.push_back(glimpse.T_now_then * p);
+    }
   }
   return points;
 }
 
-SearchFinding LaserLocator::search(std::span<const Glimpse> glimpses, std::span<const Pose2> asked) const {
-  SearchFinding finding;
-  const std::vector<Point2> points = joined(glimpses, kBeamsOfSeveral);
-  if (points.empty()) return finding;
+double LaserLocator::from_sensor(const Point2& p) const {
+  return std::hypot(p.x - T_base_sensor_.x, p.y - T_base_sensor_.y);
+}
+
+bool LaserLocator::surrounded(const Glimpse& glimpse) const {
+  const auto points = select_end_points(scan_of(glimpse.z), T_base_sensor_, limits_, kBeamsOfSeveral);
+  const auto near = std::count_if(points.begin(), points.end(),
+                                  [&](const Point2& p) { return from_sensor(p) < options_.crowd_m; });
+  return 2 * static_cast<std::size_t>(near) > points.size();
+}
+
+// Where people stand around the robot, a nook of the map explains the most beams; where it is, only those
+// that pass between them reach a wall.
+std::vector<LocatedPose> LaserLocator::search(std::span<const Glimpse> glimpses) const {
+  std::vector<LocatedPose> places = located(joined(glimpses, kBeamsOfSeveral), glimpses.size());
+  if (!glimpses.empty() && surrounded(glimpses.back())) {
+    const auto between = located(joined(glimpses, kBeamsOfOne, options_.crowd_m), glimpses.size());
+    places.insert(places.end(), between.begin(), between.end());
+  }
+  return places;
+}
+
+std::vector<LocatedPose> LaserLocator::located(const std::vector<Point2>& points, std::size_t scans) const {
+  if (points.empty()) return {};
   OneShotOptions options = options_.search;
-  options.effective_beams += options_.further_beams * (static_cast<double>(glimpses.size()) - 1.0);
-  finding.poses = cairn::locate(prepared(), points, options).poses;
-  if (finding.poses.empty()) return finding;
-  std::vector<double> masses;
-  for (const LocatedPose& pose : finding.poses) masses.push_back(log_mass(pose));
-  finding.log_evidence = log_sum_exp(masses) - std::log(free_volume(*map_));
-  const double scale = std::min(1.0, options.effective_beams / static_cast<double>(points.size()));
-  for (const Pose2& pose : asked)
-    finding.log_likelihood.push_back(scale * prepared().log_likelihood(points, pose));
-  return finding;
+  options.effective_beams += options_.further_beams * (static_cast<double>(scans) - 1.0);
+  return cairn::locate(prepared(), points, options).poses;
 }
 
 }  // namespace cairn

@@ -19,7 +19,8 @@ class LaserLocator {
     LikelihoodFieldOptions likelihood;
     OneShotOptions search;
     double further_beams = 10.0;  ///< as which each scan after the first counts, in independent beams
-    int joined = 8;               ///< locate(): so many of the last scans are searched with
+    double crowd_m = 0.0;  ///< search(): where most beams end nearer, something stands around the robot
+    int joined = 8;        ///< locate(): so many of the last scans are searched with
   };
 
   LaserLocator(std::shared_ptr<const OccupancyGrid> map, const Pose2& T_base_sensor, const BeamLimits& limits,
@@ -28,11 +29,16 @@ class LaserLocator {
 
   /// Places from the last glimpses, and those asked for; all weighed by the whole way (score_path).
   std::vector<LocatedPose> locate(std::span<const Glimpse> glimpses, std::span<const Pose2> asked) const;
-  SearchFinding search(std::span<const Glimpse> glimpses, std::span<const Pose2> asked) const;
+  /// Places from all glimpses joined; where people stand around the robot, also from the beams that pass
+  /// between them.
+  std::vector<LocatedPose> search(std::span<const Glimpse> glimpses) const;
 
  private:
   const PoseSearch& prepared() const;
-  std::vector<Point2> joined(std::span<const Glimpse> glimpses, int beams) const;
+  std::vector<Point2> joined(std::span<const Glimpse> glimpses, int beams, double farther_than_m = 0.0) const;
+  double from_sensor(const Point2& p) const;
+  bool surrounded(const Glimpse& glimpse) const;
+  std::vector<LocatedPose> located(const std::vector<Point2>& points, std::size_t scans) const;
   std::vector<PathLook> looks(std::span<const Glimpse> glimpses) const;
   void weigh(std::span<const PathLook> path, std::vector<LocatedPose>& places) const;
 

@@ -64,6 +64,9 @@ void RecoveryOptions::visit(OptionVisitor& v) {
   v.number({"effective_beams", "as laser.effective_beams, for the first of the joined scans"},
            effective_beams, {0.1, 100000});
   v.number({"further_beams", "likewise for each of the others"}, further_beams, {0.0, 100000});
+  v.number({"crowd_m",
+            "where most beams end nearer, a search looks also at what lies farther only, metres; 0: never"},
+           crowd_m, {0.0, 1e3});
   v.number({"millions_of_points", "a search looks up at most this many million end points"},
            millions_of_points, {0.01, 1e6});
   v.number({"rival_beams", "as laser.effective_beams, for a scan that rivals are weighed by"}, rival_beams,
@@ -132,18 +135,17 @@ bool Recovery::due(const RecoveryMemory& memory, Time now) const {
 void Recovery::search(RecoveryMemory& memory, const StreamModel& model, Time now,
                       const Pose2& believed) const {
   if (!due(memory, now)) return;
-  const auto finding = model.search(memory.glimpses, {});
-  if (!finding) return;
+  const auto found = model.search(memory.glimpses);
+  if (!found) return;
   memory.searched = true;
   memory.searched_at = now;
   ++memory.searches;
   memory.wait_s = std::min(2.0 * std::max(memory.wait_s, options_.every_s), options_.at_most_every_s);
-  const std::vector<double> gains =
-      gains_of(finding->poses, memory.glimpses, model, believed, rivals_, options_);
+  const std::vector<double> gains = gains_of(*found, memory.glimpses, model, believed, rivals_, options_);
   const double before = std::log(options_.prior / (1.0 - options_.prior)) -
                         std::log(static_cast<double>(std::max<std::size_t>(1, gains.size())));
   for (std::size_t i = 0; i < gains.size(); ++i) {
-    rivals_.add(memory.rivals, {finding->poses[i].T_map_base, before + gains[i], 0, 0.0, ++memory.last_id},
+    rivals_.add(memory.rivals, {(*found)[i].T_map_base, before + gains[i], 0, 0.0, ++memory.last_id},
                 believed);
   }
 }

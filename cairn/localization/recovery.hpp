@@ -21,14 +21,16 @@ struct RecoveryOptions {
   double prior = 0.05;    ///< probability of being elsewhere when doubt begins, shared by what is found
   double news_m = 0.25;   ///< way after which a scan is news; one taken nearer to the last says less
   double every_s = 2.0;   ///< time between two searches, doubled after each that finds nothing new
-  double at_most_every_s = 4.0;    ///< up to this
-  int scans = 8;                   ///< of the last ones that may be joined
-  double spacing_m = 0.2;          ///< those nearer to the one before than this ...
-  double spacing_rad = 0.2;        ///< ... and turned by less than this are left out, but for the newest
-  int most_poses = 40;             ///< distinct places
-  double sigma_hit_m = 0.15;       ///< as laser.sigma_hit_m, in the search
-  double effective_beams = 12.0;   ///< as laser.effective_beams, for the first of the joined scans
-  double further_beams = 5.0;      ///< likewise for each of the others
+  double at_most_every_s = 4.0;   ///< up to this
+  int scans = 8;                  ///< of the last ones that may be joined
+  double spacing_m = 0.2;         ///< those nearer to the one before than this ...
+  double spacing_rad = 0.2;       ///< ... and turned by less than this are left out, but for the newest
+  int most_poses = 40;            ///< distinct places
+  double sigma_hit_m = 0.15;      ///< as laser.sigma_hit_m, in the search
+  double effective_beams = 12.0;  ///< as laser.effective_beams, for the first of the joined scans
+  double further_beams = 5.0;     ///< likewise for each of the others
+  double crowd_m =
+      1.0;  ///< where most beams end nearer, a search looks also at what lies farther only; 0: never
   double millions_of_points = 30;  ///< a search looks up at most this many million end points
   double rival_beams = 10.0;       ///< as laser.effective_beams, for a scan that rivals are weighed by
   double rival_most = 10.0;        ///< a scan never speaks more than this against a place, nat

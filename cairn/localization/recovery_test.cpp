@@ -22,13 +22,10 @@ class FoundElsewhere final : public StreamModel {
   double explained_share(const Event::Payload&, const Pose2&) const override { return 1.0; }
   double beams(const Event::Payload&) const override { return 1.0; }
   bool informs(const Event::Payload&) const override { return true; }
-  std::optional<SearchFinding> search(std::span<const Glimpse> glimpses,
-                                      std::span<const Pose2>) const override {
+  std::optional<std::vector<LocatedPose>> search(std::span<const Glimpse> glimpses) const override {
     ++searches_;
     glimpses_.assign(glimpses.begin(), glimpses.end());
-    SearchFinding finding;
-    finding.poses = {{kPlace, 1e-4 * Eigen::Matrix3d::Identity(), 1.0, 0.0}};
-    return finding;
+    return std::vector<LocatedPose>{{kPlace, 1e-4 * Eigen::Matrix3d::Identity(), 1.0, 0.0}};
   }
   bool follow(const Event::Payload&, std::span<Pose2> places, std::span<double> fits) const override {
     fits[0] = 0.0;

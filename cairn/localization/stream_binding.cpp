@@ -88,10 +88,9 @@ class LaserStream final : public StreamModel {
   std::vector<LocatedPose> locate(std::span<const Glimpse> way, std::span<const Pose2> asked) const override {
     return parts_.start ? parts_.start->locate(way, asked) : std::vector<LocatedPose>{};
   }
-  std::optional<SearchFinding> search(std::span<const Glimpse> glimpses,
-                                      std::span<const Pose2> asked) const override {
+  std::optional<std::vector<LocatedPose>> search(std::span<const Glimpse> glimpses) const override {
     if (!parts_.recovery) return std::nullopt;
-    return parts_.recovery->search(glimpses, asked);
+    return parts_.recovery->search(glimpses);
   }
   bool follow(const Event::Payload& z, std::span<Pose2> places, std::span<double> fits) const override {
     if (!parts_.fit) return false;
@@ -142,6 +141,7 @@ LaserLocator::Options recovery_search(const LocalizerOptions& options) {
   o.search.effective_beams = recovery.effective_beams;
   o.search.millions_of_points = recovery.millions_of_points;
   o.further_beams = recovery.further_beams;
+  o.crowd_m = recovery.crowd_m;
   return o;
 }
 

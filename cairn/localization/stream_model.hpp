@@ -20,15 +20,6 @@ struct Glimpse {
   Pose2 T_now_then;
 };
 
-/// What a search over the whole map found, and how well the belief fits by the same measure.
-struct SearchFinding {
-  std::vector<LocatedPose> poses;  ///< places where the robot may be now, T_map_base
-  /// Log of the evidence that it is at any of them, each pose on the map being equally likely before:
-  /// log (1 / V) sum over the poses of the integral of the likelihood, V the volume of free poses, m^2 rad.
-  double log_evidence = 0.0;
-  std::vector<double> log_likelihood;  ///< of the poses that were asked for
-};
-
 /// What one stream's measurements tell of the pose: its sensor model, mounting pose and map, bound together.
 /// The run-time around the filter knows no more of a sensor than this. Immutable.
 class StreamModel {
@@ -62,10 +53,8 @@ class StreamModel {
     return {};
   }
 
-  /// What finds a robot that was lost: likewise, and the evidence against the poses asked for.
-  /// nullopt: this sensor cannot tell.
-  virtual std::optional<SearchFinding> search(std::span<const Glimpse> /*glimpses*/,
-                                              std::span<const Pose2> /*asked*/) const {
+  /// Where a robot that was lost may be now, T_map_base. nullopt: this sensor cannot tell.
+  virtual std::optional<std::vector<LocatedPose>> search(std::span<const Glimpse> /*glimpses*/) const {
     return std::nullopt;
   }
 
