@@ -149,24 +149,6 @@ class ParticleFilter {
     if (parts_.injection) inject(z);
   }
 
-  /// A mixture: `states` get `share` of the belief, by their weights; the particles that are there keep the
-  /// rest. The next resampling brings the number of particles back to what SampleSize wants.
-  /// @pre as many weights as states, none negative, their sum > 0; 0 < share < 1
-  void take_in(std::span<const State> states, std::span<const double> weights, double share) {
-    CAIRN_ASSERT(states.size() == weights.size() && !states.empty() && share > 0.0 && share < 1.0);
-    double sum = 0.0;
-    for (const double weight : weights) sum += weight;
-    for (double& log_weight : particles_.log_weights) log_weight += std::log1p(-share);
-    for (std::size_t i = 0; i < states.size(); ++i) {
-      if (!(weights[i] > 0.0)) continue;
-      particles_.states.push_back(states[i]);
-      particles_.log_weights.push_back(std::log(share * weights[i] / sum));
-    }
-    ess_ = normalize_weights(particles_.log_weights, particles_.weights);
-    ess_of_generation_ = ess_;
-    fit();
-  }
-
   /// With their weights, as logs and as they are.
   const ParticleSet<State>& particles() const { return particles_; }
   /// Effective sample size after the last measurement, 1..N.

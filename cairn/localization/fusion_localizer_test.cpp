@@ -55,7 +55,6 @@ TEST_F(FusionLocalizerTest, CarriesTheErrorOfTheHeading) {
     void initialize(const Sampler&) override {}
     void predict(const PoseControl&) override {}
     void correct(const BoundUpdate<Pose2>&) override {}
-    void take_in(std::span<const Pose2>, std::span<const double>, double) override {}
     bool compact() const override { return true; }
     std::size_t size() const override { return 1; }
     PoseSummary summarize() const override {

@@ -18,9 +18,6 @@ class ParticlePoseFilter final : public PoseFilter {
   void initialize(const Sampler& sample) override { filter_.initialize(sample); }
   void predict(const PoseControl& control) override;
   void correct(const BoundUpdate<Pose2>& z) override { filter_.correct(z); }
-  void take_in(std::span<const Pose2> states, std::span<const double> weights, double share) override {
-    filter_.take_in(states, weights, share);
-  }
   bool compact() const override { return filter_.compact(); }
   std::size_t size() const override { return filter_.particles().size(); }
   /// Of the heaviest place, with all others (find_hypotheses).

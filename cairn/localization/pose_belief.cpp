@@ -188,17 +188,26 @@ void PoseBelief::recover(const StreamModel& model, const Event& event, const Pos
   if (model.informs(event.payload))
     recovery_->observe(memory, event.stream, model, event.payload, believed, in_doubt);
   recovery_->search(memory, model, event.stamp, believed);
-  if (recovery_->take_over(memory, believed, right, *filter_)) {
+  const bool trusted = recovery_->trusted(
+      right, memory.rivals.empty() ? std::nullopt : model.classify(event.payload, believed));
+  const bool elsewhere = recovery_->take_over(memory, state_.track.places, trusted, *filter_);
+  if (elsewhere) {
     summarize({}, 0.0);
     state_.pose = state_.updated.T_map_base;
     state_.updated.quality = model.explained_share(event.payload, state_.updated.T_map_base);
   }
+  judge_by_rivals(trusted && !elsewhere);
+}
+
+// What the rivals leave of the belief. A pose that nothing else speaks against is called ambiguous by them,
+// not lost: with so many beams the best of all places on the map fits one scan well, wherever the robot is.
+void PoseBelief::judge_by_rivals(bool trusted) {
   Judgement& judgement = state_.updated.judgement;
-  const double share = Rivals::believed_share(memory.rivals);
-  const double believed_right = monitor_.right(state_.monitor) * share;
-  judgement.probability = state_.updated.weight * believed_right;
+  const double share = Rivals::believed_share(state_.recovery.rivals);
+  const double right = monitor_.right(state_.monitor) * share;
+  judgement.probability = state_.updated.weight * right;
   if (judgement.state == TrackingState::kSensorFault) return;
-  if (believed_right < 0.5) {
+  if (right < 0.5 && !trusted) {
     judgement.state = TrackingState::kLost;
   } else if (share < 0.9) {
     judgement.state = TrackingState::kAmbiguous;

@@ -109,6 +109,7 @@ class PoseBelief {
   void summarize(const Pose2& moved, double since_s);
   void judge(const StreamModel& model, const Event& event, const Pose2& moved);
   void recover(const StreamModel& model, const Event& event, const Pose2& moved, double since_s);
+  void judge_by_rivals(bool trusted);
   bool surprises(const Event& event, const OdometryTrack& odometry) const;
   void add_rivals(const Pose2& T_then_now, double since_s, HypothesisSnapshot& snapshot) const;
   void search(const StreamModel& model, const Event& event);

@@ -88,10 +88,20 @@ TEST_F(PoseBeliefTest, NoEvidenceNeedBeAddedWhereTheMonitorDoubts) {
   EXPECT_LT(error_at_the_end(kElsewhere), 0.15);
 }
 
+TEST_F(PoseBeliefTest, BeamsThroughWallsAreEnoughWhereTheMonitorDoesNotDoubt) {
+  LocalizerOptions options;
+  options.recovery.sure = 1000.0;
+  options.recovery.doubt = 0.0;
+  make(options);
+  carry_away();
+  EXPECT_LT(error_at_the_end(kElsewhere), 0.15);
+}
+
 TEST_F(PoseBeliefTest, NoRivalTakesOverFromAMonitorThatNeverDoubts) {
   LocalizerOptions options;
   options.recovery.sure = 1000.0;
   options.recovery.doubt = 0.0;
+  options.recovery.refuted = 2.0;  // not even by beams through walls
   make(options);
   carry_away();
   EXPECT_TRUE(rivals_after_);

@@ -54,10 +54,6 @@ class PoseFilter {
   virtual void predict(const PoseControl& control) = 0;
   virtual void correct(const BoundUpdate<Pose2>& z) = 0;
 
-  /// Lets `states` compete with what is believed: they get `share` of the belief, each by its weight, the
-  /// rest keeps 1 - share. @pre as many weights as states, their sum > 0; 0 < share < 1
-  virtual void take_in(std::span<const Pose2> states, std::span<const double> weights, double share) = 0;
-
   /// False while the belief is spread over several places.
   virtual bool compact() const = 0;
   /// Number of states that a measurement is evaluated in.

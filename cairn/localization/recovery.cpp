@@ -8,9 +8,8 @@
 namespace cairn {
 namespace {
 
-constexpr int kDoubtfulScans = 3;       // for which one scan raises doubt
-constexpr double kBestOfFew = 0.3;      // probability of one of two or three places that fit alike
-constexpr double kLargestShare = 0.98;  // of the belief that a rival may get at once
+constexpr int kDoubtfulScans = 3;   // for which one scan raises doubt
+constexpr double kBestOfFew = 0.3;  // probability of one of two or three places that fit alike
 // Spread of a rival that takes over.
 constexpr double kSpread_m = 0.1, kSpread_rad = 0.05;
 
@@ -75,16 +74,21 @@ void RecoveryOptions::visit(OptionVisitor& v) {
   v.number({"accept", "log-odds at which a rival takes over"}, accept, {0.0, 1e3});
   v.number({"sure", "and so much more while the pose is right with at least the probability `doubt`"}, sure,
            {0.0, 1e3});
+  v.integer({"confirm", "after so many scans that have weighed it since it was found"}, confirm, {0, 1000});
+  v.number({"refuted", "unless this share of the beams ends behind walls, which no people can cause"},
+           refuted, {0.0, 2.0});
   v.number({"share", "with this probability among all places"}, share, {0.0, 1.0});
   v.number({"hopeless", "or with these log-odds, if it is one of two or three"}, hopeless, {0.0, 1e3});
-  v.integer({"confirm", "and weighed by so many scans since it was found"}, confirm, {0, 1000});
-  v.integer({"particles", "that come in then"}, particles, {1, 1'000'000});
   v.number({"most_million_cells", "no recovery on a larger map: a search needs about 60 bytes per cell"},
            most_million_cells, {0.0, 1e4});
 }
 
 bool Recovery::doubtful(double right, double explained, double usual) const {
   return right < options_.doubt || explained < usual - options_.drop;
+}
+
+bool Recovery::trusted(double right, const std::optional<BeamShares>& seen) const {
+  return right >= options_.doubt && (!seen || seen->beyond + seen->unknown < options_.refuted);
 }
 
 bool Recovery::surprising(double explained_before, double explained_now) const {
@@ -155,28 +159,32 @@ Eigen::Matrix3d Recovery::spread() {
       .asDiagonal();
 }
 
-bool Recovery::take_over(RecoveryMemory& memory, const Pose2& believed, double right,
+bool Recovery::take_over(RecoveryMemory& memory, std::span<const Hypothesis> places, bool trusted,
                          PoseFilter& filter) const {
-  const double accept = options_.accept + (right >= options_.doubt ? options_.sure : 0.0);
-  Rival* const strongest = Rivals::strongest(memory.rivals, options_.confirm);
+  const double accept = options_.accept + (trusted ? options_.sure : 0.0);
+  Rival* const strongest = Rivals::strongest(memory.rivals, trusted ? options_.confirm : 0);
   if (strongest == nullptr || strongest->log_odds < accept) return false;
   const double probability = Rivals::share(memory.rivals, strongest->log_odds);
   const bool best_of_few = strongest->log_odds >= options_.hopeless && probability >= kBestOfFew;
   if (probability < options_.share && !best_of_few) return false;
-  const Rival winner = rivals_.take_over(memory.rivals, *strongest, believed);
-  const RandomStream random(seed_, RandomPurpose::kCandidates, ++memory.takeovers);
-  std::vector<Pose2> states;
-  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(options_.particles); ++i) {
-    const auto n = random.normal4(i);
-    const Pose2& mean = winner.T_map_base;
-    states.push_back({mean.x + kSpread_m * n[0], mean.y + kSpread_m * n[1],
-                      normalize_angle(mean.theta + kSpread_rad * n[2])});
+  const Rival winner = rivals_.take_over(memory.rivals, *strongest, places[0].T_map_base);
+  for (const Hypothesis& place : places.subspan(1)) {
+    const double log_odds = std::log(place.weight / places[0].weight) - winner.log_odds;
+    rivals_.add(memory.rivals, {place.T_map_base, log_odds, 0, place.age_s, ++memory.last_id},
+                winner.T_map_base);
   }
-  const std::vector<double> weights(states.size(), 1.0);
-  const double share = 1.0 / (1.0 + std::exp(-winner.log_odds));
-  filter.take_in(states, weights, std::min(share, kLargestShare));
+  begin_at(winner.T_map_base, ++memory.takeovers, filter);
   memory.wait_s = 0.0;
   return true;
+}
+
+void Recovery::begin_at(const Pose2& mean, std::uint32_t takeover, PoseFilter& filter) const {
+  const RandomStream random(seed_, RandomPurpose::kCandidates, takeover);
+  filter.initialize([&](const RandomStream&, std::uint32_t i) {
+    const auto n = random.normal4(i);
+    return Pose2{mean.x + kSpread_m * n[0], mean.y + kSpread_m * n[1],
+                 normalize_angle(mean.theta + kSpread_rad * n[2])};
+  });
 }
 
 }  // namespace cairn

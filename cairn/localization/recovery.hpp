@@ -2,12 +2,14 @@
 
 #include "cairn/core/options.hpp"
 #include "cairn/core/time.hpp"
+#include "cairn/localization/estimate.hpp"
 #include "cairn/localization/pose_filter.hpp"
 #include "cairn/localization/rivals.hpp"
 #include "cairn/localization/stream_model.hpp"
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace cairn {
@@ -29,17 +31,16 @@ struct RecoveryOptions {
   double sigma_hit_m = 0.15;      ///< as laser.sigma_hit_m, in the search
   double effective_beams = 12.0;  ///< as laser.effective_beams, for the first of the joined scans
   double further_beams = 5.0;     ///< likewise for each of the others
-  double crowd_m =
-      1.0;  ///< where most beams end nearer, a search looks also at what lies farther only; 0: never
+  double crowd_m = 1.0;  ///< where most beams end nearer, a second search takes those beyond; 0: never
   double millions_of_points = 30;  ///< a search looks up at most this many million end points
   double rival_beams = 10.0;       ///< as laser.effective_beams, for a scan that rivals are weighed by
   double rival_most = 10.0;        ///< a scan never speaks more than this against a place, nat
-  double accept = 4.0;             ///< log-odds at which a rival takes over
-  double sure = 8.0;               ///< (and so many more while the pose is right with at least `doubt`),
-  double share = 0.9;              ///< with this probability among all places, or against a belief that
+  double accept = 1.0;             ///< log-odds at which a rival takes over
+  double sure = 11.0;              ///< (and so many more while the pose is right with at least `doubt`, after
+  int confirm = 1;                 ///< so many scans that have weighed it since it was found,
+  double refuted = 0.25;           ///< unless this share of the beams ends behind walls or off the map),
+  double share = 0.6;              ///< with this probability among all places, or against a belief that
   double hopeless = 10.0;          ///< has lost by so much that the best of two or three is better,
-  int confirm = 1;                 ///< and weighed by so many scans since it was found
-  int particles = 300;             ///< that come in then
   /// The first search prepares the map, for about 60 bytes per cell: there is no recovery on a larger one,
   /// and a warning says so.
   double most_million_cells = 16.0;
@@ -80,6 +81,9 @@ class Recovery {
   /// @param right probability of the pose, the scan included
   /// @param explained share of its beams that the map explains there; usual: the average so far
   bool doubtful(double right, double explained, double usual) const;
+  /// Whether a rival has to be much better to take over: nothing else speaks against the pose.
+  /// @param seen classes of the scan's beams there, if it has any
+  bool trusted(double right, const std::optional<BeamShares>& seen) const;
   /// Whether a scan is worth an update though the robot has not moved: it is not what was seen here before.
   bool surprising(double explained_before, double explained_now) const;
 
@@ -95,13 +99,15 @@ class Recovery {
 
   /// Covariance of a rival that takes over.
   static Eigen::Matrix3d spread();
-  /// Lets a rival that has won take over: it enters the filter with its share of the belief. False if none
-  /// has.
-  /// @param right  probability that the pose is right, by the monitor
-  bool take_over(RecoveryMemory& memory, const Pose2& believed, double right, PoseFilter& filter) const;
+  /// Lets a rival that has won take over: the filter begins anew there, and the places believed so far are
+  /// rivals with the odds that they have left. False if none has. @param places of the filter, the believed
+  /// one first
+  bool take_over(RecoveryMemory& memory, std::span<const Hypothesis> places, bool trusted,
+                 PoseFilter& filter) const;
 
  private:
   void remember(RecoveryMemory& memory, StreamId stream, const Event::Payload& z, bool in_doubt) const;
+  void begin_at(const Pose2& mean, std::uint32_t takeover, PoseFilter& filter) const;
   bool due(const RecoveryMemory& memory, Time now) const;
 
   RecoveryOptions options_;

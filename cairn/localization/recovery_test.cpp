@@ -43,6 +43,8 @@ class FoundElsewhere final : public StreamModel {
   double gain_;
 };
 
+const std::vector<Hypothesis> kBelieved{{.T_map_base = {}, .weight = 1.0}};
+
 class RecoveryTest : public testing::Test {
  protected:
   void observe(const StreamModel& model, double at_s, bool in_doubt) {
@@ -54,15 +56,16 @@ class RecoveryTest : public testing::Test {
     memory_ = {};
     observe(model, 1.0, true);
     recovery_.search(memory_, model, at(1.0), {});
-    return recovery_.take_over(memory_, {}, 0.5, filter_);
+    return recovery_.take_over(memory_, kBelieved, false, filter_);
   }
 
   Recovery recovery_{RecoveryOptions{.active = true,
                                      .prior = 0.2,
                                      .rival_beams = FoundElsewhere::kBeams,
                                      .accept = 0.5,
-                                     .share = 0.6,
-                                     .confirm = 0},
+                                     .sure = 8.0,
+                                     .confirm = 0,
+                                     .share = 0.6},
                      1};
   RecoveryMemory memory_;
   test::ListeningFilter filter_;
@@ -74,10 +77,9 @@ TEST_F(RecoveryTest, WhatIsFoundBeginsWithThePriorAndWhatTheScansFitBetter) {
   EXPECT_NEAR(memory_.rivals[0].log_odds, 1.5 + std::log(0.2 / 0.8), 1e-9);
 }
 
-TEST_F(RecoveryTest, AWinnerTakesOverWithItsShare) {
+TEST_F(RecoveryTest, TheFilterBeginsAnewAtTheWinner) {
   EXPECT_TRUE(after_one_scan(2.9));
   const double log_odds = 2.9 + std::log(0.2 / 0.8);
-  EXPECT_NEAR(filter_.share_, 1.0 / (1.0 + std::exp(-log_odds)), 1e-9);
   ASSERT_EQ(filter_.states_.size(), 300u);
   double x = 0.0;
   for (const Pose2& pose : filter_.states_) x += pose.x / 300.0;
@@ -86,47 +88,65 @@ TEST_F(RecoveryTest, AWinnerTakesOverWithItsShare) {
   EXPECT_NEAR(memory_.rivals[0].log_odds, -log_odds, 1e-9);
 }
 
-TEST_F(RecoveryTest, AWinnerIsToBeConfirmedByFurtherScans) {
+TEST_F(RecoveryTest, AllPlacesOfADefeatedBeliefAreRivals) {
+  memory_.rivals = {{{5, 0, 0}, 3.0}};
+  const std::vector<Hypothesis> places{{.T_map_base = {}, .weight = 0.6},
+                                       {.T_map_base = {-8, 0, 0}, .weight = 0.3}};
+  ASSERT_TRUE(recovery_.take_over(memory_, places, false, filter_));
+  ASSERT_EQ(memory_.rivals.size(), 2u);
+  EXPECT_NEAR(memory_.rivals[0].log_odds, -3.0, 1e-9);
+  EXPECT_NEAR(memory_.rivals[1].log_odds, std::log(0.5) - 3.0, 1e-9);
+  EXPECT_EQ(memory_.rivals[1].T_map_base.x, -8.0);
+}
+
+TEST_F(RecoveryTest, WhereThePoseIsTrustedAWinnerIsToBeConfirmed) {
   const Recovery recovery(
-      RecoveryOptions{
-          .active = true, .prior = 0.5, .rival_beams = FoundElsewhere::kBeams, .accept = 1.0, .confirm = 2},
-      1);
-  const FoundElsewhere model(2.9);
-  observe(model, 1.0, true);
-  recovery.search(memory_, model, at(1.0), {});
-  EXPECT_FALSE(recovery.take_over(memory_, {}, 0.5, filter_));
-  for (Rival& rival : memory_.rivals) rival.scans = 2;
-  EXPECT_TRUE(recovery.take_over(memory_, {}, 0.5, filter_));
+      RecoveryOptions{.rival_beams = FoundElsewhere::kBeams, .accept = 1.0, .sure = 1.0, .confirm = 2}, 1);
+  memory_.rivals = {{{5, 0, 0}, 3.0}};
+  EXPECT_FALSE(recovery.take_over(memory_, kBelieved, true, filter_));
+  memory_.rivals[0].scans = 2;
+  EXPECT_TRUE(recovery.take_over(memory_, kBelieved, true, filter_));
+  memory_.rivals = {{{9, 0, 0}, 3.0}};
+  EXPECT_TRUE(recovery.take_over(memory_, kBelieved, false, filter_));
 }
 
 // A symmetric building: to choose one of two places would be wrong every other time.
 TEST_F(RecoveryTest, WhereTwoPlacesFitAlikeNoneTakesOver) {
   memory_.rivals = {{{5, 0, 0}, 6.0}, {{9, 0, 0}, 6.0}};
-  EXPECT_FALSE(recovery_.take_over(memory_, {}, 0.5, filter_));
+  EXPECT_FALSE(recovery_.take_over(memory_, kBelieved, false, filter_));
   memory_.rivals[1].log_odds = 3.0;
-  EXPECT_TRUE(recovery_.take_over(memory_, {}, 0.5, filter_));
+  EXPECT_TRUE(recovery_.take_over(memory_, kBelieved, false, filter_));
 }
 
 // ... but both are better than a belief that is refuted; the other one stays a rival.
 TEST_F(RecoveryTest, OneOfTwoPlacesTakesOverFromAHopelessBelief) {
   memory_.rivals = {{{5, 0, 0}, 12.0}, {{9, 0, 0}, 12.0}};
-  EXPECT_TRUE(recovery_.take_over(memory_, {}, 0.5, filter_));
+  EXPECT_TRUE(recovery_.take_over(memory_, kBelieved, false, filter_));
   EXPECT_NEAR(Rivals::believed_share(memory_.rivals), 0.5, 1e-4);
 }
 
 // A crowd: what the map does not explain is no sign of a wrong place, and another one may well explain it.
 TEST_F(RecoveryTest, WhereTheMonitorHasNoDoubtItTakesMore) {
   memory_.rivals = {{{5, 0, 0}, 8.4}};
-  EXPECT_FALSE(recovery_.take_over(memory_, {}, 0.95, filter_));
+  EXPECT_FALSE(recovery_.take_over(memory_, kBelieved, true, filter_));
   memory_.rivals[0].log_odds = 8.6;  // accept 0.5 and sure 8
-  EXPECT_TRUE(recovery_.take_over(memory_, {}, 0.95, filter_));
+  EXPECT_TRUE(recovery_.take_over(memory_, kBelieved, true, filter_));
+}
+
+// People in the way block beams; that many beams pass through walls only from a wrong place, and one scan
+// tells.
+TEST_F(RecoveryTest, BeamsThroughWallsRefuteWhereverTheMonitorStillTrusts) {
+  EXPECT_TRUE(recovery_.trusted(0.95, BeamShares{.explained = 0.3, .blocked = 0.65, .beyond = 0.05}));
+  EXPECT_FALSE(recovery_.trusted(0.95, BeamShares{.explained = 0.5, .beyond = 0.2, .unknown = 0.3}));
+  EXPECT_FALSE(recovery_.trusted(0.5, BeamShares{.explained = 1.0}));
+  EXPECT_TRUE(recovery_.trusted(0.95, std::nullopt)) << "a sensor without beams";
 }
 
 TEST_F(RecoveryTest, OneOfManyPlacesDoesNot) {
   for (const double log_odds : {12.0, 5000.0}) {
     memory_.rivals.clear();
     for (int i = 0; i < 4; ++i) memory_.rivals.push_back({{5.0 + 3.0 * i, 0, 0}, log_odds});
-    EXPECT_FALSE(recovery_.take_over(memory_, {}, 0.5, filter_));
+    EXPECT_FALSE(recovery_.take_over(memory_, kBelieved, false, filter_));
   }
 }
 

@@ -38,7 +38,6 @@ class FakeFilter final : public PoseFilter {
     digest(&z.stream, sizeof z.stream);
     mirror();
   }
-  void take_in(std::span<const Pose2>, std::span<const double>, double) override {}
   bool compact() const override { return true; }
   std::size_t size() const override { return 1; }
   PoseSummary summarize() const override {

@@ -8,17 +8,16 @@
 
 namespace cairn::test {
 
-/// A filter that only remembers what it was told to take in.
+/// A filter that only remembers where it was told to begin anew.
 class ListeningFilter final : public PoseFilter {
  public:
-  void initialize(const Sampler&) override {}
+  void initialize(const Sampler& sample) override {
+    states_.clear();
+    for (std::uint32_t i = 0; i < 300; ++i)
+      states_.push_back(sample(RandomStream(1, RandomPurpose::kInitialize, 0), i));
+  }
   void predict(const PoseControl&) override {}
   void correct(const BoundUpdate<Pose2>&) override {}
-  void take_in(std::span<const Pose2> states, std::span<const double> weights, double share) override {
-    states_.assign(states.begin(), states.end());
-    weights_.assign(weights.begin(), weights.end());
-    share_ = share;
-  }
   bool compact() const override { return compact_; }
   std::size_t size() const override { return 1; }
   PoseSummary summarize() const override { return {}; }
@@ -29,8 +28,6 @@ class ListeningFilter final : public PoseFilter {
 
   bool compact_ = true;
   std::vector<Pose2> states_;
-  std::vector<double> weights_;
-  double share_ = 0.0;
 };
 
 }  // namespace cairn::test
