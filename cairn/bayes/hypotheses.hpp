@@ -16,7 +16,11 @@ struct HypothesisOptions {
   double cell_rad = 0.7853982;  ///< 45 degrees; rounded so that a whole number of cells fills the circle
   double fuse_m = 1.5;          ///< groups whose means are nearer than this ...
   double fuse_rad = 0.5;        ///< ... and turned by less than this are one
-  double significance = 0.01;   ///< groups below this share of the heaviest one are not significant
+  /// Or nearer than so many times the sum of their standard deviations: a belief wider than a cell is cut by
+  /// the grid, and its pieces are no hypotheses.
+  double fuse_sigmas = 2.5;
+  double valley = 0.5;  ///< what is close to two groups joins them if it has this share of the lighter peak
+  double significance = 0.01;  ///< groups below this share of the heaviest one are not significant
 
   void visit(OptionVisitor& visitor);
 };
@@ -35,7 +39,7 @@ struct PoseHypotheses {
 };
 
 /// Groups of weighted poses (Sehestedt & Schneider, ICINCO 2006, section 5.2): particles in one cell of a
-/// fixed grid over x, y and heading belong together; groups whose means are close in all three are fused;
+/// fixed grid over x, y and heading belong together; groups that are close in all three are fused;
 /// groups of low weight are not significant. Headings wrap around. The weights need not be normalised; their
 /// sum must be > 0. O(N log N + G^2) for G occupied cells of significant weight.
 PoseHypotheses find_hypotheses(std::span<const Pose2> poses, std::span<const double> weights,

@@ -72,7 +72,33 @@ TEST(Hypotheses, LightGroupsAreNotSignificant) {
 TEST(Hypotheses, AWideBeliefIsOneAsFarAsItHangsTogether) {
   std::vector<Pose2> poses;
   for (int i = 0; i < 200; ++i) poses.push_back({0.1 * i, 0.0, 0.1});
-  EXPECT_EQ(find(poses, {}, {.fuse_m = 2.5}).found.size(), 1u);
+  EXPECT_EQ(find(poses).found.size(), 1u);
+}
+
+// The grid cuts a belief wider than its cells, and the means of the pieces are a cell apart.
+TEST(Hypotheses, PiecesOfOneCloudAreNoHypotheses) {
+  const RandomStream random(8, RandomPurpose::kTest, 0);
+  std::vector<Pose2> poses;
+  for (std::uint32_t i = 0; i < 4000; ++i) {
+    const auto n = random.normal4(i);
+    poses.push_back({2.0 * n[0], 1.5 * n[1], normalize_angle(3.0 + 0.6 * n[2])});
+  }
+  const PoseHypotheses h = find(poses);
+  ASSERT_EQ(h.found.size(), 1u);
+  EXPECT_GT(h.found[0].weight, 0.99);
+  EXPECT_GT(find(poses, {}, {.fuse_sigmas = 0.0}).found.size(), 5u);
+}
+
+// Where two groups meet by a few strays, there is a valley between them.
+TEST(Hypotheses, StraysBetweenGroupsDoNotJoinThem) {
+  std::vector<Pose2> poses;
+  add_cloud(poses, {0.1, 0.1, 0.1}, 200);
+  add_cloud(poses, {0.1, 0.1, 1.0}, 200);
+  add_cloud(poses, {0.1, 0.1, 0.55}, 10);
+  HypothesisOptions options{.cell_rad = 0.2, .fuse_rad = 0.5};
+  EXPECT_EQ(find(poses, {}, options).found.size(), 2u);
+  options.valley = 0.0;
+  EXPECT_EQ(find(poses, {}, options).found.size(), 1u);
 }
 
 TEST(Hypotheses, WeightlessPosesBelongToNone) {

@@ -101,10 +101,11 @@ void FilterOptions::visit(OptionVisitor& v) {
            min_ess_share, {0.0, 0.9});
   v.section({"kernel", "small moves of the particles between the portions"},
             [this](OptionVisitor& inner) { kernel.visit(inner); });
-  v.section({"clusters", "recipes csrl and ckld_srl: groups of particles that are kept apart"},
+  v.section({"clusters", "recipes csrl, ckld_srl and ckld_mcl: groups of particles that are kept apart"},
             [this](OptionVisitor& inner) { clusters.visit(inner); });
   v.number({"cluster_memory",
-            "recipe ckld_mcl: share of a group's log-weight that outlives a measurement; 1: exact Bayes"},
+            "recipes ckld_srl and ckld_mcl: share of a group's log-weight that outlives a measurement; 0: "
+            "the paper, 1: exact Bayes"},
            cluster_memory, {0.0, 1.0});
   v.section({"resetting", "recipes srl and csrl: new particles when the measurements do not fit"},
             [this](OptionVisitor& inner) { resetting.visit(inner); });

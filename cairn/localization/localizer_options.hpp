@@ -48,8 +48,8 @@ struct FilterOptions {
   TriggerOptions resample;  ///< when; recipe kld_mcl reads `ess` as: before every prediction
   double min_ess_share = 0.15;
   PoseKernelOptions kernel;
-  HypothesisOptions clusters;        ///< recipes csrl and ckld_srl
-  double cluster_memory = 0.9;       ///< recipe ckld_mcl: see TwoStage
+  HypothesisOptions clusters;        ///< recipes csrl, ckld_srl and ckld_mcl
+  double cluster_memory = 0.8;       ///< recipes ckld_srl and ckld_mcl: see TwoStage
   SensorResettingOptions resetting;  ///< recipes srl and csrl
   AugmentedOptions augmented;        ///< recipe amcl
   double source_per_m2 = 20.0;  ///< poses that samples of p(x | z) are chosen from, per m^2 of free space

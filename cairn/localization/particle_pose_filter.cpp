@@ -11,7 +11,8 @@ namespace {
 
 // Finer than the groups that a filter keeps apart, so that a belief that is spread along a corridor is one
 // long place; but means of cells rather than cells that touch, so that two headings at one place are two.
-constexpr HypothesisOptions kPlaces{.cell_m = 1.0, .fuse_m = 1.5, .fuse_rad = 0.5};
+constexpr HypothesisOptions kPlaces{
+    .cell_m = 1.0, .fuse_m = 1.5, .fuse_rad = 0.5, .fuse_sigmas = 0.0, .valley = 0.0};
 
 }  // namespace
 

@@ -120,7 +120,7 @@ Filter csrl(const Kitchen& k) {
 }
 
 Filter ckld_srl(const Kitchen& k) {
-  auto parts = k.clustered(k.never_fewer(), kForgetsAll);
+  auto parts = k.clustered(k.never_fewer(), k.filter().cluster_memory);
   parts.injection = k.growing();
   return k.serve(std::move(parts));
 }

@@ -24,11 +24,10 @@ std::vector<std::string> recipe_names();
 ///             fit worse than usual (decision 73)
 ///   csrl      srl with two-stage cluster sampling, no resetting while there are several clusters (table 3)
 ///   ckld_srl  kld_srl with two-stage cluster sampling, never fewer particles while there are several (table
-///   4)
+///             4); what speaks against a cluster in each scan is remembered (two_stage.hpp, decision 98)
 /// and of our own:
-///   ckld_mcl  kld_mcl with two-stage cluster sampling that remembers (two_stage.hpp): hypotheses are kept
-///   apart
-///             until the evidence of the last metre or so tells
+///   ckld_mcl  kld_mcl with the same sampling, without samples of p(x | z): hypotheses are kept apart until
+///             the evidence of the last half metre or so tells
 /// The scheme that `options.filter.resampling` names is that of the recipes without clusters.
 /// @param map where p(x | z) is sampled: not needed by mcl, kld_mcl and cgr
 /// @throws ConfigurationError for an unknown name, and if a map is needed and missing

@@ -144,6 +144,70 @@ TEST(Recipes, ClusteredOnesKeepAllFourPosesOfASymmetricWorld) {
   }
 }
 
+// How far the particles of a recipe lie from their mean after so many scans that say nothing: a robot that
+// stands, of which nothing is known but about where it was.
+double spread_after(const std::string& recipe, int updates) {
+  LocalizerOptions options;
+  options.recipe = recipe;
+  options.filter.particles = 3000;
+  options.filter.max_particles = 3000;
+  const OccupancyGrid plain({800, 800, 0.1, {-40.0, -40.0, 0.0}},
+                            std::vector<OccupancyGrid::Cell>(800 * 800, 0));
+  auto filter = make_filter(options, 1, std::make_shared<const Executor>(), &plain);
+  filter.initialize([](const RandomStream& random, std::uint32_t i) {
+    const auto n = random.normal4(i);
+    return Pose2{1.5 * n[0], 1.5 * n[1], 0.3 * n[2]};
+  });
+  const BoundUpdate<Pose2> wide{{}, [](std::span<const Pose2> states, std::span<double> out) {
+                                  for (std::size_t i = 0; i < states.size(); ++i)
+                                    out[i] = -0.05 * (states[i].x * states[i].x + states[i].y * states[i].y);
+                                }};
+  for (int i = 0; i < updates; ++i) filter.update({}, wide);
+  double sum = 0.0;
+  for (const Pose2& p : filter.particles().states) sum += p.x * p.x + p.y * p.y;
+  return std::sqrt(sum / static_cast<double>(filter.particles().size()));
+}
+
+// A belief wider than the cells in which clusters are found is cut by them. Were the pieces clusters, each
+// with an equal share of the particles (eq. 7), the belief would widen with every measurement.
+TEST(Recipes, ClusteredOnesDoNotWidenABeliefThatIsOneCloud) {
+  const double plain_m = spread_after("kld_mcl", 20);
+  for (const char* recipe : {"csrl", "ckld_srl", "ckld_mcl"})
+    EXPECT_LT(spread_after(recipe, 20), 1.2 * plain_m) << recipe;
+}
+
+// Two places, one of which every scan explains a little worse: no single scan tells them apart, ten do.
+double share_of_the_worse_after(const std::string& recipe, double memory, int updates) {
+  LocalizerOptions options;
+  options.recipe = recipe;
+  options.filter.cluster_memory = memory;
+  const OccupancyGrid plain({400, 100, 0.1, {-20.0, -5.0, 0.0}},
+                            std::vector<OccupancyGrid::Cell>(400 * 100, 0));
+  auto filter = make_filter(options, 1, std::make_shared<const Executor>(), &plain);
+  filter.initialize([](const RandomStream& random, std::uint32_t i) {
+    const auto n = random.normal4(i);
+    return Pose2{(i % 2 == 0 ? -10.0 : 10.0) + 0.1 * n[0], 0.1 * n[1], 0.1 * n[2]};
+  });
+  const BoundUpdate<Pose2> scan{{}, [](std::span<const Pose2> states, std::span<double> out) {
+                                  for (std::size_t i = 0; i < states.size(); ++i) {
+                                    const double dx = std::abs(states[i].x) - 10.0, dy = states[i].y;
+                                    out[i] = -(dx * dx + dy * dy) / 0.1 - (states[i].x < 0.0 ? 1.5 : 0.0);
+                                  }
+                                }};
+  for (int i = 0; i < updates; ++i) filter.update({}, scan);
+  double share = 0.0;
+  for (std::size_t i = 0; i < filter.particles().size(); ++i)
+    share += filter.particles().states[i].x < 0.0 ? filter.particles().weights[i] : 0.0;
+  return share;
+}
+
+TEST(Recipes, ClusteredOnesGiveUpWhatEveryScanSpeaksAgainst) {
+  for (const char* recipe : {"ckld_srl", "ckld_mcl"}) {
+    EXPECT_LT(share_of_the_worse_after(recipe, LocalizerOptions{}.filter.cluster_memory, 20), 0.01) << recipe;
+    EXPECT_GT(share_of_the_worse_after(recipe, 0.0, 20), 0.05) << recipe;  // the paper's
+  }
+}
+
 // The same world makes the plain filter choose, sooner or later, although nothing speaks for any pose.
 TEST(Recipes, ThePlainFilterLosesOneOfThem) {
   int first_lost = 0;

@@ -31,12 +31,11 @@ double heading_spread(std::span<const Pose2> poses, std::span<const double> weig
 // it (decision 73). The first portion of a scan often leaves several headings of a robot that has turned far.
 bool ClusterWatch::fit(const ParticleSet<Pose2>& particles) {
   const bool compact = moves_->fit(particles);
-  std::vector<double> weights(particles.size());
-  exp_all(particles.log_weights, 0.0, weights);
+  const std::span<const double> weights = weights_of(particles);
   table_->particles = particles.size();
   const bool was_one = table_->clusters == 1;
   if (compact && (was_one || heading_spread(particles.states, weights) < kOneHeading_rad)) {
-    table_->label.assign(particles.size(), 0);
+    table_->label.clear();
     table_->clusters = 1;
     return true;
   }
@@ -44,6 +43,14 @@ bool ClusterWatch::fit(const ParticleSet<Pose2>& particles) {
   table_->label = std::move(hypotheses.label);
   table_->clusters = hypotheses.found.size();
   return compact && table_->clusters == 1;
+}
+
+// A filter keeps them beside their logarithms.
+std::span<const double> ClusterWatch::weights_of(const ParticleSet<Pose2>& particles) {
+  if (particles.weights.size() == particles.size()) return particles.weights;
+  weights_.resize(particles.size());
+  exp_all(particles.log_weights, 0.0, weights_);
+  return weights_;
 }
 
 void ClusterWatch::save(PartMemory& memory) const {
@@ -80,9 +87,13 @@ double TwoStage::select(std::span<const double> cumulative, int cluster) {
 
 void TwoStage::draw(std::span<const double> cumulative, std::size_t count, const DrawingNumbers& numbers,
                     std::vector<std::uint32_t>& ancestors) {
-  CAIRN_ASSERT(table_->label.size() == cumulative.size());
   const std::size_t clusters = table_->clusters;
   log_cluster_weights_.assign(clusters, 0.0);
+  if (table_->label.empty()) {  // KLD-sampling draws a few at a time: no look at all particles for each
+    draw_systematic(cumulative, count, numbers.single(), ancestors);
+    return;
+  }
+  CAIRN_ASSERT(table_->label.size() == cumulative.size());
   for (std::size_t cluster = 0; cluster < clusters; ++cluster) {
     const std::size_t share = count * (cluster + 1) / clusters - count * cluster / clusters;
     log_cluster_weights_[cluster] = std::log(select(cumulative, static_cast<int>(cluster)));

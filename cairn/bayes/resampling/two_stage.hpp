@@ -14,7 +14,8 @@ namespace cairn {
 /// What the parts of a clustered filter know of each other: the hypotheses of the particles as they are now.
 /// A filter's own parts share one; two filters share none.
 struct ClusterTable {
-  std::vector<int> label;     ///< per particle; -1: of no significant cluster
+  /// Per particle; -1: of no significant cluster. Empty: all are of the only one.
+  std::vector<int> label;
   std::size_t clusters = 1;   ///< significant ones
   std::size_t particles = 0;  ///< of the generation
 };
@@ -36,9 +37,12 @@ class ClusterWatch final : public Regularization<Pose2> {
   void load(PartMemory::Reader& memory) override;
 
  private:
+  std::span<const double> weights_of(const ParticleSet<Pose2>& particles);
+
   std::shared_ptr<ClusterTable> table_;
   HypothesisOptions options_;
   std::unique_ptr<Regularization<Pose2>> moves_;
+  std::vector<double> weights_;  ///< where the particles do not bring them
 };
 
 /// Two-stage cluster sampling (Sehestedt & Schneider, section 5.1): every significant cluster is drawn, with
