@@ -92,7 +92,7 @@ TEST_F(ReplayRun, OtherOptionsPartFromTheRecording) {
   record();
   const RecordedRun run = read_recorded_run(folder_ / "run.mcap", "");
   LocalizerOptions other = run.options;
-  other.motion.alpha1 *= 1.0000001;
+  other.motion.alpha1 *= 1.001;
   const auto parting = first_parting(run.recording, run_again(run, other, 1).estimates);
   ASSERT_TRUE(parting.has_value());
   EXPECT_NE(parting->difference.first, parting->difference.second);

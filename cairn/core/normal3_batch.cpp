@@ -16,9 +16,16 @@ namespace cairn::HWY_NAMESPACE {
 
 #if HWY_TARGET == HWY_SCALAR
 
-void fill_bytes(const PhiloxCounter& first, const PhiloxKey& key, std::uint8_t* bytes) {
-  for (std::uint32_t b = 0; b < Normal3::kBlocks; ++b) {
-    const PhiloxCounter words = philox4x32_7({first[0] + b, first[1], first[2], first[3]}, key);
+struct Blocks {
+  PhiloxCounter first;
+  PhiloxKey key;
+};
+
+void fill_bytes(const Blocks& blocks, std::size_t begin, std::uint8_t* bytes) {
+  PhiloxCounter counter = blocks.first;
+  counter[0] += static_cast<std::uint32_t>(begin);
+  for (std::uint32_t b = 0; b < Normal3::kBlocks; ++b, ++counter[0]) {
+    const PhiloxCounter words = philox4x32_7(counter, blocks.key);
     for (std::size_t k = 0; k < 8; ++k) {
       const int shift = static_cast<int>(k % 4 * 8);
       bytes[8 * b + k] = static_cast<std::uint8_t>(words[k < 4 ? 1 : 0] >> shift);
@@ -38,13 +45,13 @@ void fill_numbers(const std::uint8_t* rows, std::int16_t* numbers) {
 
 using Bytes = hn::ScalableTag<std::uint8_t>;
 using B = hn::Vec<Bytes>;
+using Blocks = PhiloxBlocks<7>;
 
 // Three vectors of blocks side by side: one is a long chain of operations.
-void fill_bytes(const PhiloxCounter& first, const PhiloxKey& key, std::uint8_t* HWY_RESTRICT bytes) {
+HWY_INLINE void fill_bytes(const Blocks& blocks, std::size_t begin, std::uint8_t* HWY_RESTRICT bytes) {
   const PhiloxLongs d;
   const hn::Repartition<std::uint8_t, PhiloxLongs> d8;
   const std::size_t lanes = hn::Lanes(d);
-  const PhiloxBlocks<7> blocks(first, key);
   const auto store = [&](const PhiloxState& s, std::size_t block) {
     const auto [w10, w32] = blocks.last_round(s);
     hn::Store(hn::BitCast(d8, w10), d8, bytes + 8 * block);
@@ -52,8 +59,8 @@ void fill_bytes(const PhiloxCounter& first, const PhiloxKey& key, std::uint8_t* 
   };
   static_assert(Normal3::kBlocks % (3 * hn::MaxLanes(PhiloxLongs())) == 0);
   for (std::size_t b = 0; b < Normal3::kBlocks; b += 3 * lanes) {
-    PhiloxState low = blocks.three_rounds(b), middle = blocks.three_rounds(b + lanes);
-    PhiloxState high = blocks.three_rounds(b + 2 * lanes);
+    PhiloxState low = blocks.three_rounds(begin + b), middle = blocks.three_rounds(begin + b + lanes);
+    PhiloxState high = blocks.three_rounds(begin + b + 2 * lanes);
     blocks.middle_rounds(low, middle, high);
     store(low, b);
     store(middle, b + lanes);
@@ -93,13 +100,16 @@ void fill_numbers(const std::uint8_t* HWY_RESTRICT rows, std::int16_t* HWY_RESTR
 
 #endif
 
-void fill_group(const PhiloxCounter& first, const PhiloxKey& key, std::int16_t* n0, std::int16_t* n1,
-                std::int16_t* n2) {
+// Several groups, whose blocks follow one another: what they have in common is computed once.
+void fill_groups(const PhiloxCounter& first, const PhiloxKey& key, std::uint32_t groups,
+                 Normal3Batch::Numbers& numbers) {
   HWY_ALIGN std::uint8_t bytes[Normal3::kBytes];
-  fill_bytes(first, key, bytes);
-  fill_numbers(bytes, n0);
-  fill_numbers(bytes + Normal3::kBytes / 3, n1);
-  fill_numbers(bytes + 2 * Normal3::kBytes / 3, n2);
+  const Blocks blocks{first, key};
+  for (std::uint32_t g = 0; g < groups; ++g) {
+    fill_bytes(blocks, std::size_t{g} * Normal3::kBlocks, bytes);
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+      fill_numbers(bytes + k * Normal3::kBytes / 3, &numbers[k][std::size_t{g} * Normal3::kGroup]);
+  }
 }
 
 }  // namespace cairn::HWY_NAMESPACE
@@ -108,20 +118,18 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace cairn {
 
-HWY_EXPORT(fill_group);
+HWY_EXPORT(fill_groups);
 
 void Normal3Batch::fill(const RandomStream& random, std::uint32_t first, std::size_t count,
                         std::uint16_t draw) {
   CAIRN_ASSERT(count <= kCapacity);
+  if (count == 0) return;
   PhiloxCounter blocks = random.counter(first, draw);
   const std::uint32_t group = blocks[0] / Normal3::kGroup;
   skipped_ = blocks[0] % Normal3::kGroup;
-  for (std::uint32_t g = 0; std::size_t{g} * Normal3::kGroup < skipped_ + count; ++g) {
-    blocks[0] = (group + g) * Normal3::kBlocks;
-    const std::size_t at = g * std::size_t{Normal3::kGroup};
-    HWY_DYNAMIC_DISPATCH(fill_group)
-    (blocks, random.key(), &numbers_[0][at], &numbers_[1][at], &numbers_[2][at]);
-  }
+  blocks[0] = group * Normal3::kBlocks;
+  const auto groups = static_cast<std::uint32_t>((skipped_ + count - 1) / Normal3::kGroup + 1);
+  HWY_DYNAMIC_DISPATCH(fill_groups)(blocks, random.key(), groups, numbers_);
 }
 
 }  // namespace cairn

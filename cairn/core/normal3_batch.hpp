@@ -16,7 +16,11 @@ namespace cairn {
 /// simd.hpp.
 class Normal3Batch {
  public:
-  static constexpr std::size_t kCapacity = Normal3::kGroup;
+  static constexpr std::size_t kCapacity = std::size_t{4} * Normal3::kGroup;
+
+  /// Whole groups of items are drawn: a batch may begin within one and end within another. The last vector,
+  /// of up to 32 numbers, may be read to its end.
+  using Numbers = std::array<std::array<std::int16_t, kCapacity + Normal3::kGroup + 32>, 3>;
 
   /// Draws for `count` items, at most kCapacity. @pre their numbers stay below 2^32
   void fill(const RandomStream& random, std::uint32_t first, std::size_t count, std::uint16_t draw = 0);
@@ -26,12 +30,7 @@ class Normal3Batch {
   const std::int16_t* number(std::size_t k) const { return numbers_[k].data() + skipped_; }
 
  private:
-  // Whole groups of items are drawn. A batch may begin within a group and end within the next; the last
-  // vector may be read to its end.
-  static constexpr std::size_t kLargestVector = 32;
-
-  alignas(
-      64) std::array<std::array<std::int16_t, std::size_t{2} * Normal3::kGroup + kLargestVector>, 3> numbers_;
+  alignas(64) Numbers numbers_;
   std::size_t skipped_ = 0;
 };
 

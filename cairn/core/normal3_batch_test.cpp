@@ -51,7 +51,7 @@ TEST(Normal3Batch, EveryPathAndEveryBatchGivesTheSameBits) {
   const RandomStream random = RandomStream(7, RandomPurpose::kMotion, 3).from_item(1'000'005);
   const std::vector<float> expected = numbers(random, 1000, 128);
   test::on_every_simd_path([&](SimdPath path) {
-    for (const std::size_t per_batch : {1, 7, 16, 31, 100, 128})
+    for (const std::size_t per_batch : {1, 7, 16, 31, 100, 128, 512})
       EXPECT_EQ(numbers(random, 1000, per_batch), expected) << name_of(path) << ", batches of " << per_batch;
   });
 }

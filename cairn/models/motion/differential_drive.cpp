@@ -69,6 +69,7 @@ void sample_in_batches(const NoisyMove& move, std::span<Pose2> states, const Ran
 void DifferentialDrive::propagate(const Pose2& T_before_after, std::span<Pose2> states,
                                   const RandomStream& random) const {
   const NoisyMove move = noisy_move(T_before_after);
+  if (move == NoisyMove{}) return;  // headings would be rounded, up to 4e-9 rad at a time
   if (move.goes_aside()) {
     sample_in_batches<NormalBatch>(move, states, random);
   } else {

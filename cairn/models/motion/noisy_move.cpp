@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -17,37 +18,69 @@
 #include "cairn/core/simd_math-inl.h"
 // clang-format on
 
-#ifndef CAIRN_MODELS_MOTION_HEADINGS_
-#define CAIRN_MODELS_MOTION_HEADINGS_
+#ifndef CAIRN_MODELS_MOTION_NOISY_MOVE_PARTS_
+#define CAIRN_MODELS_MOTION_NOISY_MOVE_PARTS_
 namespace cairn {
 namespace {
 
-// Cosine and sine of all whole multiples of 1 / kPerRadian from -8 to 8 rad, one pair after the other: first
-// those from 0 on, then the negative ones, as the low bits of a number count.
-constexpr int kPerRadian = 64;
-constexpr std::size_t kHeadings = std::size_t{16} * kPerRadian;
-using HeadingTable = std::array<double, 2 * kHeadings>;
-constexpr double kLargestInTable = 8.0 - 1.0 / kPerRadian;
+constexpr std::size_t kMostStates = Normal3Batch::kCapacity;
+static_assert(NormalBatch::kCapacity <= kMostStates);
 
-constexpr std::size_t kMostStates = NormalBatch::kCapacity;
-static_assert(Normal3Batch::kCapacity <= kMostStates);
-
-// Headings below are exact to the last digits.
-constexpr double kLargestHeading = 1e5;
-
-// Normal numbers of a batch in units of kUnit; some more behind the last may be read.
+// Normal numbers of a batch in units of kUnit, at most kLargest of them; some more behind the last may be
+// read.
 struct FourNumbers {
-  static constexpr double kUnit = 1.0;
+  static constexpr double kUnit = 1.0, kLargest = 7.0;
   static constexpr bool kAside = true;
   const float *turn1, *drive, *turn2, *aside;
   FourNumbers from(std::size_t i) const { return {turn1 + i, drive + i, turn2 + i, aside + i}; }
 };
 struct ThreeNumbers {
-  static constexpr double kUnit = Normal3::kUnit;
+  static constexpr double kUnit = Normal3::kUnit, kLargest = 0x1p15;
   static constexpr bool kAside = false;
   const std::int16_t *turn1, *drive, *turn2;
   ThreeNumbers from(std::size_t i) const { return {turn1 + i, drive + i, turn2 + i}; }
 };
+
+// Angles are counted in 2^-32 turns: 32 bits of an integer, which wrap as angles do. They are the low half of
+// the double that turns plus this number give.
+constexpr double kCounting = 0x1.8p20;
+constexpr double kPerRadian = 0x1p32 / kTwoPi;
+std::uint32_t counted(double radians) {
+  return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(radians / kTwoPi + kCounting));
+}
+
+// A turn with noise, as the lanes count it: a number times `scale` plus kRounding is a float that holds the
+// rounded product in its low 22 bits; shifted left by `shift` it counts 2^-32 turns. `offset` is the mean,
+// less what the other bits add.
+struct NoisyTurn {
+  static constexpr float kRounding = 0x1.8p23f;
+  float scale;
+  int shift;
+  std::uint32_t offset;
+
+  NoisyTurn(double mean, double sigma, double unit, double largest) {
+    const double most = std::min(0x1p30, sigma * unit * largest * (kPerRadian * 0x1p-21));
+    shift = std::bit_width(static_cast<std::uint32_t>(most));
+    scale = static_cast<float>(sigma * unit * kPerRadian / (std::int64_t{1} << shift));
+    offset = counted(mean) - (std::bit_cast<std::uint32_t>(kRounding) << shift);
+  }
+};
+
+// Which coordinate (0 x, 1 y, 2 theta) is what lane of the vectors that states fill in memory, for vectors of
+// up to eight.
+constexpr std::array<std::int64_t, 24> kCoordinate = {0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2,
+                                                      0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2};
+
+// As many states as a vector has lanes fill three vectors, and each lane has a given coordinate in one of the
+// three only, as 3 and the number of lanes have no common divisor. Picking it there yields the coordinate of
+// all states without a shuffle, but in another order: here is which state each lane has then.
+template <std::size_t Lanes, std::size_t Coordinate>
+constexpr std::array<std::int32_t, Lanes> states_of_lanes() {
+  std::array<std::int32_t, Lanes> states{};
+  for (std::size_t k = Coordinate; k < 3 * Lanes; k += 3)
+    states[k % Lanes] = static_cast<std::int32_t>(k / 3);
+  return states;
+}
 
 }  // namespace
 }  // namespace cairn
@@ -57,204 +90,250 @@ HWY_BEFORE_NAMESPACE();
 namespace cairn::HWY_NAMESPACE {
 
 using Doubles = hn::ScalableTag<double>;
+using Floats = hn::ScalableTag<float>;
+using Ints = hn::RebindToSigned<Floats>;
 using D = hn::Vec<Doubles>;
+using V = hn::Vec<Floats>;
+using I = hn::Vec<Ints>;
+constexpr std::size_t kDoubles = hn::MaxLanes(Doubles()), kFloats = hn::MaxLanes(Floats());
 
-// normalize_angle for angles of less than 2^50 turns.
-HWY_INLINE D normalized(D angle) {
-  const Doubles d;
-  const D bias = hn::Set(d, rounding_bias(d));
-  const D turns = hn::Sub(hn::Add(hn::Mul(angle, hn::Set(d, 1.0 / kTwoPi)), bias), bias);
-  const D wrapped = hn::Sub(angle, hn::Mul(turns, hn::Set(d, kTwoPi)));
-  const D low = hn::Set(d, -kPi);
-  return hn::IfThenElse(hn::Lt(wrapped, hn::Set(d, kPi)), hn::Max(wrapped, low), low);
-}
+// Moves a vector between the order of the states and the order that a coordinate has in memory.
+class Order {
+ public:
+  using Places = std::array<std::int32_t, kFloats>;
+  HWY_INLINE explicit Order(const Places& places) : indices_(hn::SetTableIndices(Ints(), places.data())) {}
+  HWY_INLINE I operator()(I v) const { return hn::TableLookupLanes(v, indices_); }
+  HWY_INLINE V operator()(V v) const { return hn::BitCast(Floats(), (*this)(hn::BitCast(Ints(), v))); }
 
-// For the rare heading that is too large or not a number.
-HWY_NOINLINE D normalized_exactly(D angles) {
-  const Doubles d;
-  HWY_ALIGN double each[hn::MaxLanes(Doubles())];
-  hn::Store(angles, d, each);
-  for (double& angle : each) {
-    if (!(std::abs(angle) < kLargestHeading)) angle = normalize_angle(angle);
+  template <std::size_t Coordinate>
+  static constexpr Places to_memory() {
+    constexpr auto kStates = states_of_lanes<kDoubles, Coordinate>();
+    Places places{};
+    for (std::size_t i = 0; i < kFloats; ++i)
+      places[i] = static_cast<std::int32_t>(i / kDoubles * kDoubles) + kStates[i % kDoubles];
+    return places;
   }
-  return hn::Load(d, each);
+  static constexpr Places inverse(const Places& there) {
+    Places back{};
+    for (std::size_t i = 0; i < kFloats; ++i)
+      back[static_cast<std::size_t>(there[i])] = static_cast<std::int32_t>(i);
+    return back;
+  }
+
+ private:
+  decltype(hn::SetTableIndices(Ints(), static_cast<const std::int32_t*>(nullptr))) indices_;
+};
+
+// Bit l: lane l of vector `vector` has the coordinate.
+constexpr int lanes_of(std::size_t vector, std::size_t coordinate) {
+  int bits = 0;
+  for (std::size_t l = 0; l < kDoubles; ++l) bits |= ((vector * kDoubles + l) % 3 == coordinate) << l;
+  return bits;
 }
+
+// `there` in the lanes of a vector that hold the coordinate. IfThenElse becomes a blend by a mask, for which
+// two units of the processor are there in place of four: 3 % of the time of a move.
+template <std::size_t Vector, std::size_t Coordinate>
+HWY_INLINE D with_lanes(D there, D elsewhere) {
+#if HWY_TARGET == HWY_AVX2
+  return D{_mm256_blend_pd(elsewhere.raw, there.raw, lanes_of(Vector, Coordinate))};
+#else
+  const hn::RebindToSigned<Doubles> di;
+  const auto here = hn::LoadU(di, kCoordinate.data() + Vector * kDoubles);
+  const auto mask =
+      hn::RebindMask(Doubles(), hn::Eq(here, hn::Set(di, static_cast<std::int64_t>(Coordinate))));
+  return hn::IfThenElse(mask, there, elsewhere);
+#endif
+}
+
+HWY_INLINE D headings_of(const double* states) {
+  const Doubles d;
+  const D first = hn::LoadU(d, states), second = hn::LoadU(d, states + kDoubles);
+  return with_lanes<1, 2>(second, with_lanes<0, 2>(first, hn::LoadU(d, states + std::size_t{2} * kDoubles)));
+}
+
+// What is added to the positions of a batch, and its new headings, in the orders of memory.
+struct Steps {
+  HWY_ALIGN float x[kMostStates], y[kMostStates];
+  HWY_ALIGN std::int32_t heading[kMostStates];
+};
+
+// Headings in 2^-32 turns, with `offset` added, of as many states as there are lanes of floats; in the order
+// of memory.
+class HeadingReader {
+ public:
+  HWY_INLINE explicit HeadingReader(std::uint32_t offset)
+      : seen_(hn::Zero(Doubles())), bias_(hn::Set(Doubles(), kCounting + offset * 0x1p-32)) {}
+
+  HWY_INLINE I operator()(const double* states) {
+#if HWY_TARGET == HWY_SCALAR
+    const auto word = std::bit_cast<std::uint64_t>(hn::GetLane(counted(headings_of(states))));
+    return hn::Set(Ints(), static_cast<std::int32_t>(static_cast<std::uint32_t>(word)));
+#else
+    const hn::Repartition<std::int32_t, Doubles> di;
+    const D low = counted(headings_of(states)), high = counted(headings_of(states + 3 * kDoubles));
+    return hn::ConcatEven(di, hn::BitCast(di, high), hn::BitCast(di, low));
+#endif
+  }
+
+  // Whether all were less than two turns: then no exponent had the bit of 2.0.
+  HWY_INLINE bool all_good() const {
+    const Doubles d;
+    const D bit = hn::Set(d, 2.0);
+    return hn::AllTrue(d, hn::Eq(hn::And(seen_, bit), hn::Zero(d)));
+  }
+
+ private:
+  HWY_INLINE D counted(D radians) {
+    const D turns = hn::Mul(radians, hn::Set(Doubles(), 1.0 / kTwoPi));
+    seen_ = hn::Or(seen_, turns);
+    return hn::Add(turns, bias_);
+  }
+
+  D seen_, bias_;
+};
 
 // A vector of normal numbers, in their unit.
-HWY_INLINE D numbers_at(const float* numbers) {
-  const Doubles d;
-  return hn::PromoteTo(d, hn::LoadU(hn::Rebind<float, Doubles>(), numbers));
-}
-HWY_INLINE D numbers_at(const std::int16_t* numbers) {
-  const Doubles d;
-  const hn::Rebind<std::int32_t, Doubles> d32;
-  return hn::PromoteTo(d, hn::PromoteTo(d32, hn::LoadU(hn::Rebind<std::int16_t, Doubles>(), numbers)));
+HWY_INLINE V numbers_at(const float* numbers) { return hn::LoadU(Floats(), numbers); }
+HWY_INLINE V numbers_at(const std::int16_t* numbers) {
+  const hn::Rebind<std::int16_t, Floats> d16;
+  return hn::ConvertTo(Floats(), hn::PromoteTo(Ints(), hn::LoadU(d16, numbers)));
 }
 
-// A part of the move, for normal numbers in units of `unit`.
-struct NoisyPart {
-  D mean, deviation;
+// Without its offset.
+template <class Number>
+HWY_INLINE I turned(const NoisyTurn& turn, const Number* numbers) {
+  const Floats d;
+  const V product = hn::Mul(numbers_at(numbers), hn::Set(d, turn.scale));
+  const V rounded = hn::Add(product, hn::Set(d, NoisyTurn::kRounding));
+  return hn::ShiftLeftSame(hn::BitCast(Ints(), rounded), turn.shift);
+}
 
-  HWY_INLINE NoisyPart(double center, double sigma, double unit)
-      : mean(hn::Set(Doubles(), center)), deviation(hn::Set(Doubles(), sigma * unit)) {}
+struct NoisyLength {
+  V mean, deviation;
+
+  HWY_INLINE NoisyLength(double center, double sigma, double unit)
+      : mean(hn::Set(Floats(), static_cast<float>(center))),
+        deviation(hn::Set(Floats(), static_cast<float>(sigma * unit))) {}
   template <class Number>
-  HWY_INLINE D at(const Number* numbers) const {
+  HWY_INLINE V at(const Number* numbers) const {
     return hn::Add(mean, hn::Mul(deviation, numbers_at(numbers)));
   }
 };
 
-struct Direction {
-  D cosine, sine;
-};
-
-// The low bits of a number count the multiples.
-HWY_INLINE const double* pair_at(const double* table, std::int64_t number) {
-  return table + 2 * (static_cast<std::size_t>(number) % kHeadings);
-}
-
-#if HWY_TARGET == HWY_SCALAR
-HWY_INLINE Direction looked_up(const double* table, const std::int64_t* place) {
-  const Doubles d;
-  const double* const pair = pair_at(table, *place);
-  return {hn::Set(d, pair[0]), hn::Set(d, pair[1])};
-}
-#else
-// The pairs at every other place, from this one on.
-template <std::size_t Lanes>
-HWY_INLINE auto pairs(const double* table, const std::int64_t* place) {
-  const hn::CappedTag<double, Lanes> d;
-  if constexpr (Lanes == 2) {
-    return hn::Load(d, pair_at(table, *place));
-  } else {
-    return hn::Combine(d, pairs<Lanes / 2>(table, place + Lanes / 2), pairs<Lanes / 2>(table, place));
-  }
-}
-
-HWY_INLINE Direction looked_up(const double* table, const std::int64_t* place) {
-  const Doubles d;
-  const D even = pairs<hn::MaxLanes(d)>(table, place), odd = pairs<hn::MaxLanes(d)>(table, place + 1);
-  return {hn::InterleaveLower(d, even, odd), hn::InterleaveUpper(d, even, odd)};
-}
-#endif
-
-// Steps of a length towards a heading: first towards the closest one of the table, then turned by what is
-// left, at most 1 / 128: the polynomials of Taylor, the last one of the cosine moved a little towards what it
-// leaves out, are right to 1e-16.
+// Steps towards a heading: within 3e-7 of their length. Headings of more than a right angle go backwards from
+// the opposite one.
 struct Towards {
-  Direction table;
-  D rest, cosine, sine_ratio;
+  V sign, angle, cosine, sine_ratio;
 
-  HWY_INLINE Towards(const Direction& closest, D left) : table(closest), rest(left) {
-    const Doubles d;
-    constexpr double kMostSquared = 0.25 / (kPerRadian * kPerRadian);
-    const D z = hn::Mul(rest, rest);
-    cosine = horner(d, z, hn::Set(d, 1.0 / 24.0 - 0.896 * kMostSquared / 720.0), -0.5, 1.0);
-    sine_ratio = horner(d, z, hn::Set(d, 1.0 / 120.0), -1.0 / 6.0, 1.0);
+  HWY_INLINE explicit Towards(I heading) {
+    const Floats d;
+    const I twice = hn::Add(heading, heading);  // the halves of a turn wrap
+    sign = hn::And(hn::BitCast(d, hn::Xor(heading, twice)), hn::SignBit(d));
+    angle = hn::Mul(hn::ConvertTo(d, twice), hn::Set(d, static_cast<float>(0.5 / kPerRadian)));
+    const V z = hn::Mul(angle, angle);
+    cosine = horner(d, z, hn::Set(d, 2.33138413664416e-5f), -0.0013861600570695023, 0.041664803462082796,
+                    -0.4999996556859674, 1.0);
+    sine_ratio = horner(d, z, hn::Set(d, 2.5950657096123163e-6f), -0.00019803926640700332,
+                        0.00833297118090601, -0.166666546192234, 1.0);
   }
 
-  HWY_INLINE Direction step(D length) const {
-    const D ahead = hn::Mul(length, cosine), aside = hn::Mul(hn::Mul(length, rest), sine_ratio);
-    return {hn::Sub(hn::Mul(table.cosine, ahead), hn::Mul(table.sine, aside)),
-            hn::Add(hn::Mul(table.sine, ahead), hn::Mul(table.cosine, aside))};
+  struct Step {
+    V x, y;
+  };
+  HWY_INLINE Step step(V length) const {
+    const V there = hn::Xor(length, sign);
+    return {hn::Mul(there, cosine), hn::Mul(hn::Mul(there, angle), sine_ratio)};
   }
 };
 
-// Headings that the table does not have, or that are not numbers: rare. Others keep all their bits.
-HWY_NOINLINE D turned_carefully(D theta, D turn1) {
-  const Doubles d;
-  const auto small = hn::Lt(hn::Abs(theta), hn::Set(d, kLargestHeading));
-  if (!hn::AllTrue(d, small)) theta = normalized_exactly(theta);
-  const D heading = hn::Add(theta, turn1);
-  const auto beyond = hn::Gt(hn::Abs(heading), hn::Set(d, kLargestInTable));
-  return hn::IfThenElse(beyond, normalized(heading), heading);
-}
-
-// At most kLargestInTable.
-HWY_INLINE D turned(D theta, D turn1) {
-  const Doubles d;
-  const D heading = hn::Add(theta, turn1);
-  const auto in_table = hn::Le(hn::Abs(heading), hn::Set(d, kLargestInTable));
-  return HWY_LIKELY(hn::AllTrue(d, in_table)) ? heading : turned_carefully(theta, turn1);
-}
-
-// What the first pass finds of the states of a batch: their headings after the second turn; the place in the
-// table of what is closest to those after the first turn, and the rest.
-struct Headings {
-  HWY_ALIGN double second[kMostStates];
-  HWY_ALIGN double rest[kMostStates];
-  HWY_ALIGN std::int64_t place[kMostStates];
-};
-
+// Whether all headings were less than two turns.
 template <class Noise>
-HWY_INLINE void turn(const NoisyMove& move, const double* states, std::size_t count, const Noise& noise,
-                     Headings& out) {
-  const Doubles d;
-  const hn::RebindToSigned<Doubles> di;
-  const NoisyPart turn1(move.turn1, move.sigma_turn1, Noise::kUnit);
-  const NoisyPart turn2(move.turn2, move.sigma_turn2, Noise::kUnit);
-  // Adding 1.5 times the power of two from which on doubles are whole multiples of 1 / kPerRadian.
-  const D bias = hn::Set(d, rounding_bias(d) / kPerRadian);
-  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    D x, y, theta;
-    hn::LoadInterleaved3(d, states + 3 * i, x, y, theta);
-    const D heading = turned(theta, turn1.at(noise.turn1 + i));
-    const D number = hn::Add(heading, bias);
-    hn::Store(normalized(hn::Add(heading, turn2.at(noise.turn2 + i))), d, out.second + i);
-    hn::Store(hn::Sub(heading, hn::Sub(number, bias)), d, out.rest + i);
-    hn::Store(hn::BitCast(di, number), di, out.place + i);
-  }
-}
-
-template <class Noise>
-HWY_INLINE void drive(const NoisyMove& move, double* states, std::size_t count, const Noise& noise,
-                      const Headings& from, const double* table) {
-  const Doubles d;
-  const NoisyPart ahead(move.drive, move.sigma_drive, Noise::kUnit);
-  const NoisyPart aside(move.aside, move.sigma_aside, Noise::kUnit);
-  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const Towards towards(looked_up(table, from.place + i), hn::Load(d, from.rest + i));
-    D x, y, theta;
-    hn::LoadInterleaved3(d, states + 3 * i, x, y, theta);
-    const auto [dx, dy] = towards.step(ahead.at(noise.drive + i));
-    x = hn::Add(x, dx), y = hn::Add(y, dy);
+HWY_INLINE bool find_steps(const NoisyMove& move, const double* states, std::size_t count, const Noise& noise,
+                           Steps& steps) {
+  const NoisyTurn turn1(move.turn1, move.sigma_turn1, Noise::kUnit, Noise::kLargest);
+  const NoisyTurn turn2(move.turn2, move.sigma_turn2, Noise::kUnit, Noise::kLargest);
+  const NoisyLength ahead(move.drive, move.sigma_drive, Noise::kUnit);
+  const NoisyLength aside(move.aside, move.sigma_aside, Noise::kUnit);
+  HeadingReader heading_at(turn1.offset);
+  const I offset = hn::Set(Ints(), static_cast<std::int32_t>(turn2.offset));
+  constexpr auto kX = Order::to_memory<0>(), kY = Order::to_memory<1>(), kTheta = Order::to_memory<2>();
+  const Order to_x(kX), to_y(kY), to_theta(kTheta), from_theta(Order::inverse(kTheta));
+  for (std::size_t i = 0; i < count; i += kFloats) {
+    const I heading = hn::Add(from_theta(heading_at(states + 3 * i)), turned(turn1, noise.turn1 + i));
+    const I second = hn::Add(hn::Add(heading, offset), turned(turn2, noise.turn2 + i));
+    const Towards towards(heading);
+    auto [x, y] = towards.step(ahead.at(noise.drive + i));
     if constexpr (Noise::kAside) {
-      const auto [ax, ay] = towards.step(aside.at(noise.aside + i));
-      x = hn::Sub(x, ay), y = hn::Add(y, ax);
+      const auto [along, across] = towards.step(aside.at(noise.aside + i));
+      x = hn::Sub(x, across), y = hn::Add(y, along);
     }
-    hn::StoreInterleaved3(x, y, hn::Load(d, from.second + i), d, states + 3 * i);
+    hn::Store(to_x(x), Floats(), steps.x + i);
+    hn::Store(to_y(y), Floats(), steps.y + i);
+    hn::Store(to_theta(second), Ints(), steps.heading + i);
+  }
+  return heading_at.all_good();
+}
+
+template <std::size_t Vector>
+HWY_INLINE void update(D dx, D dy, D heading, double* state) {
+  const D moved = hn::Add(hn::LoadU(Doubles(), state), with_lanes<Vector, 1>(dy, dx));
+  hn::StoreU(with_lanes<Vector, 2>(heading, moved), Doubles(), state);
+}
+
+HWY_INLINE void take_steps(const Steps& steps, double* states, std::size_t count) {
+  const Doubles d;
+  const hn::Rebind<float, Doubles> df;
+  const hn::Rebind<std::int32_t, Doubles> di;
+  for (std::size_t i = 0; i < count; i += kDoubles) {
+    const D dx = hn::PromoteTo(d, hn::Load(df, steps.x + i)),
+            dy = hn::PromoteTo(d, hn::Load(df, steps.y + i));
+    const D heading =
+        hn::Mul(hn::PromoteTo(d, hn::Load(di, steps.heading + i)), hn::Set(d, 1.0 / kPerRadian));
+    double* const state = states + 3 * i;
+    update<0>(dx, dy, heading, state);
+    update<1>(dx, dy, heading, state + kDoubles);
+    update<2>(dx, dy, heading, state + 2 * kDoubles);
+  }
+}
+
+// Rare. A heading that is not a number makes the whole state so.
+HWY_NOINLINE void wrap_headings(double* states, std::size_t count) {
+  for (double* state = states; state != states + 3 * count; state += 3) {
+    if (std::abs(state[2]) < 2.0 * kTwoPi) continue;
+    state[2] = normalize_angle(state[2]);
+    if (std::isnan(state[2])) state[0] = state[1] = state[2];
   }
 }
 
 // A whole number of vectors.
 template <class Noise>
-HWY_INLINE void move_vectors(const NoisyMove& move, double* states, std::size_t count, const Noise& noise,
-                             const double* table) {
-  Headings headings;
-  turn(move, states, count, noise, headings);
-  drive(move, states, count, noise, headings, table);
+HWY_INLINE void move_vectors(const NoisyMove& move, double* states, std::size_t count, const Noise& noise) {
+  Steps steps;
+  if (HWY_UNLIKELY(!find_steps(move, states, count, noise, steps))) {
+    wrap_headings(states, count);
+    find_steps(move, states, count, noise, steps);
+  }
+  take_steps(steps, states, count);
 }
 
 template <class Noise>
-HWY_INLINE void move_all(const NoisyMove& move, double* states, std::size_t count, const Noise& noise,
-                         const double* table) {
-  constexpr std::size_t kLanes = hn::MaxLanes(Doubles());
-  const std::size_t left = count % kLanes, whole = count - left;
-  move_vectors(move, states, whole, noise, table);
+HWY_INLINE void move_all(const NoisyMove& move, double* states, std::size_t count, const Noise& noise) {
+  const std::size_t left = count % kFloats, whole = count - left;
+  move_vectors(move, states, whole, noise);
   if (left == 0) return;
-  double last[3 * kLanes] = {};
+  double last[3 * kFloats] = {};
   std::copy_n(states + 3 * whole, 3 * left, last);
-  move_vectors(move, last, kLanes, noise.from(whole), table);
+  move_vectors(move, last, kFloats, noise.from(whole));
   std::copy_n(last, 3 * left, states + 3 * whole);
 }
 
-void apply_four(const NoisyMove& move, double* states, std::size_t count, const FourNumbers& noise,
-                const double* table) {
-  move_all(move, states, count, noise, table);
+void apply_four(const NoisyMove& move, double* states, std::size_t count, const FourNumbers& noise) {
+  move_all(move, states, count, noise);
 }
 
-void apply_three(const NoisyMove& move, double* states, std::size_t count, const ThreeNumbers& noise,
-                 const double* table) {
-  move_all(move, states, count, noise, table);
+void apply_three(const NoisyMove& move, double* states, std::size_t count, const ThreeNumbers& noise) {
+  move_all(move, states, count, noise);
 }
 
 }  // namespace cairn::HWY_NAMESPACE
@@ -266,19 +345,6 @@ namespace {
 
 HWY_EXPORT(apply_four);
 HWY_EXPORT(apply_three);
-
-const double* heading_table() {
-  alignas(64) static const HeadingTable table = [] {
-    HeadingTable made;
-    for (std::size_t k = 0; k < kHeadings; ++k) {
-      const double number = static_cast<double>(k) - (k < kHeadings / 2 ? 0.0 : kHeadings);
-      const double heading = number / kPerRadian;
-      made[2 * k] = std::cos(heading), made[2 * k + 1] = std::sin(heading);
-    }
-    return made;
-  }();
-  return table.data();
-}
 
 }  // namespace
 
@@ -297,13 +363,13 @@ void apply(const NoisyMove& move, std::span<Pose2> states, const NormalBatch& no
   CAIRN_ASSERT(states.size() <= NormalBatch::kCapacity);
   const auto& n = noise.number;
   const FourNumbers numbers{n[0].data(), n[1].data(), n[2].data(), n[3].data()};
-  HWY_DYNAMIC_DISPATCH(apply_four)(move, &states.data()->x, states.size(), numbers, heading_table());
+  HWY_DYNAMIC_DISPATCH(apply_four)(move, &states.data()->x, states.size(), numbers);
 }
 
 void apply(const NoisyMove& move, std::span<Pose2> states, const Normal3Batch& noise) {
   CAIRN_ASSERT(states.size() <= Normal3Batch::kCapacity && !move.goes_aside());
   const ThreeNumbers numbers{noise.number(0), noise.number(1), noise.number(2)};
-  HWY_DYNAMIC_DISPATCH(apply_three)(move, &states.data()->x, states.size(), numbers, heading_table());
+  HWY_DYNAMIC_DISPATCH(apply_three)(move, &states.data()->x, states.size(), numbers);
 }
 
 }  // namespace cairn
