@@ -94,7 +94,7 @@ std::vector<std::size_t> by_weight(const std::vector<Piece>& pieces) {
 }
 
 // Groups are numbered as they are met first.
-std::vector<int> numbered(std::vector<std::size_t> peak) {
+std::vector<int> numbered(const std::vector<std::size_t>& peak) {
   std::map<std::size_t, int> number;
   std::vector<int> group;
   group.reserve(peak.size());
@@ -126,7 +126,7 @@ std::vector<int> fuse(const std::vector<Piece>& pieces, const HypothesisOptions&
       std::replace(peak.begin(), peak.end(), lighter, met == lighter ? own : met);
     }
   }
-  return numbered(std::move(peak));
+  return numbered(peak);
 }
 
 // rank[g]: place of group g among the significant ones, heaviest 0; -1 if it is not significant.
