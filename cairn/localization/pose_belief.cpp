@@ -188,15 +188,15 @@ void PoseBelief::recover(const StreamModel& model, const Event& event, const Pos
   if (model.informs(event.payload))
     recovery_->observe(memory, event.stream, model, event.payload, believed, in_doubt);
   recovery_->search(memory, model, event.stamp, believed);
-  const bool trusted = recovery_->trusted(
+  const Standing standing = recovery_->standing(
       right, memory.rivals.empty() ? std::nullopt : model.classify(event.payload, believed));
-  const bool elsewhere = recovery_->take_over(memory, state_.track.places, trusted, *filter_);
+  const bool elsewhere = recovery_->take_over(memory, state_.track.places, standing, *filter_);
   if (elsewhere) {
     summarize({}, 0.0);
     state_.pose = state_.updated.T_map_base;
     state_.updated.quality = model.explained_share(event.payload, state_.updated.T_map_base);
   }
-  judge_by_rivals(trusted && !elsewhere);
+  judge_by_rivals(standing == Standing::kTrusted && !elsewhere);
 }
 
 // What the rivals leave of the belief. A pose that nothing else speaks against is called ambiguous by them,

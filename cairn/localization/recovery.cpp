@@ -75,9 +75,11 @@ void RecoveryOptions::visit(OptionVisitor& v) {
   v.number({"sure", "and so much more while the pose is right with at least the probability `doubt`"}, sure,
            {0.0, 1e3});
   v.integer({"confirm", "after so many scans that have weighed it since it was found"}, confirm, {0, 1000});
-  v.number({"refuted", "unless this share of the beams ends behind walls, which no people can cause"},
-           refuted, {0.0, 2.0});
   v.number({"share", "with this probability among all places"}, share, {0.0, 1.0});
+  v.number({"refuted", "where this share of the beams ends behind walls or off the map"}, refuted,
+           {0.0, 2.0});
+  v.number({"refuted_accept", "these log-odds"}, refuted_accept, {0.0, 1e3});
+  v.number({"refuted_share", "and this probability are enough"}, refuted_share, {0.0, 1.0});
   v.number({"hopeless", "or with these log-odds, if it is one of two or three"}, hopeless, {0.0, 1e3});
   v.number({"most_million_cells", "no recovery on a larger map: a search needs about 60 bytes per cell"},
            most_million_cells, {0.0, 1e4});
@@ -87,8 +89,9 @@ bool Recovery::doubtful(double right, double explained, double usual) const {
   return right < options_.doubt || explained < usual - options_.drop;
 }
 
-bool Recovery::trusted(double right, const std::optional<BeamShares>& seen) const {
-  return right >= options_.doubt && (!seen || seen->beyond + seen->unknown < options_.refuted);
+Standing Recovery::standing(double right, const std::optional<BeamShares>& seen) const {
+  if (seen && seen->beyond + seen->unknown >= options_.refuted) return Standing::kRefuted;
+  return right >= options_.doubt ? Standing::kTrusted : Standing::kDoubtful;
 }
 
 bool Recovery::surprising(double explained_before, double explained_now) const {
@@ -159,14 +162,21 @@ Eigen::Matrix3d Recovery::spread() {
       .asDiagonal();
 }
 
-bool Recovery::take_over(RecoveryMemory& memory, std::span<const Hypothesis> places, bool trusted,
+bool Recovery::has_won(const RecoveryMemory& memory, const Rival& rival, Standing standing) const {
+  const bool refuted = standing == Standing::kRefuted;
+  const double accept = (refuted ? options_.refuted_accept : options_.accept) +
+                        (standing == Standing::kTrusted ? options_.sure : 0.0);
+  if (rival.log_odds < accept) return false;
+  const double probability = Rivals::share(memory.rivals, rival.log_odds);
+  const bool best_of_few = rival.log_odds >= options_.hopeless && probability >= kBestOfFew;
+  return best_of_few || probability >= (refuted ? options_.refuted_share : options_.share);
+}
+
+bool Recovery::take_over(RecoveryMemory& memory, std::span<const Hypothesis> places, Standing standing,
                          PoseFilter& filter) const {
-  const double accept = options_.accept + (trusted ? options_.sure : 0.0);
-  Rival* const strongest = Rivals::strongest(memory.rivals, trusted ? options_.confirm : 0);
-  if (strongest == nullptr || strongest->log_odds < accept) return false;
-  const double probability = Rivals::share(memory.rivals, strongest->log_odds);
-  const bool best_of_few = strongest->log_odds >= options_.hopeless && probability >= kBestOfFew;
-  if (probability < options_.share && !best_of_few) return false;
+  const int confirm = standing == Standing::kRefuted ? 0 : options_.confirm;
+  Rival* const strongest = Rivals::strongest(memory.rivals, confirm);
+  if (strongest == nullptr || !has_won(memory, *strongest, standing)) return false;
   const Rival winner = rivals_.take_over(memory.rivals, *strongest, places[0].T_map_base);
   for (const Hypothesis& place : places.subspan(1)) {
     const double log_odds = std::log(place.weight / places[0].weight) - winner.log_odds;

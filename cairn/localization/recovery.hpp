@@ -35,17 +35,26 @@ struct RecoveryOptions {
   double millions_of_points = 30;  ///< a search looks up at most this many million end points
   double rival_beams = 10.0;       ///< as laser.effective_beams, for a scan that rivals are weighed by
   double rival_most = 10.0;        ///< a scan never speaks more than this against a place, nat
-  double accept = 1.0;             ///< log-odds at which a rival takes over
-  double sure = 11.0;              ///< (and so many more while the pose is right with at least `doubt`, after
-  int confirm = 1;                 ///< so many scans that have weighed it since it was found,
-  double refuted = 0.25;           ///< unless this share of the beams ends behind walls or off the map),
-  double share = 0.6;              ///< with this probability among all places, or against a belief that
+  double accept = 4.0;             ///< log-odds at which a rival takes over
+  double sure = 8.0;               ///< (and so many more while the pose is right with at least `doubt`),
+  int confirm = 1;                 ///< after so many scans that have weighed it since it was found,
+  double share = 0.9;              ///< with this probability among all places;
+  double refuted = 0.25;           ///< where this share of the beams ends behind walls or off the map,
+  double refuted_accept = 1.0;     ///< these log-odds ...
+  double refuted_share = 0.6;      ///< ... and this probability are enough, at once. Against a belief that
   double hopeless = 10.0;          ///< has lost by so much that the best of two or three is better,
   /// The first search prepares the map, for about 60 bytes per cell: there is no recovery on a larger one,
   /// and a warning says so.
   double most_million_cells = 16.0;
 
   void visit(OptionVisitor& visitor);
+};
+
+/// How the believed pose stands, whatever its rivals say.
+enum class Standing {
+  kTrusted,   ///< the monitor has no doubt: people in the way may be all that is wrong
+  kDoubtful,  ///< it has
+  kRefuted,   ///< the last scan alone is impossible there: its beams would have passed through walls
 };
 
 /// All that changes in a recovery.
@@ -81,9 +90,8 @@ class Recovery {
   /// @param right probability of the pose, the scan included
   /// @param explained share of its beams that the map explains there; usual: the average so far
   bool doubtful(double right, double explained, double usual) const;
-  /// Whether a rival has to be much better to take over: nothing else speaks against the pose.
-  /// @param seen classes of the scan's beams there, if it has any
-  bool trusted(double right, const std::optional<BeamShares>& seen) const;
+  /// @param seen classes of the scan's beams at the believed pose, if it has any
+  Standing standing(double right, const std::optional<BeamShares>& seen) const;
   /// Whether a scan is worth an update though the robot has not moved: it is not what was seen here before.
   bool surprising(double explained_before, double explained_now) const;
 
@@ -102,11 +110,12 @@ class Recovery {
   /// Lets a rival that has won take over: the filter begins anew there, and the places believed so far are
   /// rivals with the odds that they have left. False if none has. @param places of the filter, the believed
   /// one first
-  bool take_over(RecoveryMemory& memory, std::span<const Hypothesis> places, bool trusted,
+  bool take_over(RecoveryMemory& memory, std::span<const Hypothesis> places, Standing standing,
                  PoseFilter& filter) const;
 
  private:
   void remember(RecoveryMemory& memory, StreamId stream, const Event::Payload& z, bool in_doubt) const;
+  bool has_won(const RecoveryMemory& memory, const Rival& rival, Standing standing) const;
   void begin_at(const Pose2& mean, std::uint32_t takeover, PoseFilter& filter) const;
   bool due(const RecoveryMemory& memory, Time now) const;
 

@@ -56,7 +56,7 @@ class RecoveryTest : public testing::Test {
     memory_ = {};
     observe(model, 1.0, true);
     recovery_.search(memory_, model, at(1.0), {});
-    return recovery_.take_over(memory_, kBelieved, false, filter_);
+    return recovery_.take_over(memory_, kBelieved, Standing::kDoubtful, filter_);
   }
 
   Recovery recovery_{RecoveryOptions{.active = true,
@@ -92,61 +92,72 @@ TEST_F(RecoveryTest, AllPlacesOfADefeatedBeliefAreRivals) {
   memory_.rivals = {{{5, 0, 0}, 3.0}};
   const std::vector<Hypothesis> places{{.T_map_base = {}, .weight = 0.6},
                                        {.T_map_base = {-8, 0, 0}, .weight = 0.3}};
-  ASSERT_TRUE(recovery_.take_over(memory_, places, false, filter_));
+  ASSERT_TRUE(recovery_.take_over(memory_, places, Standing::kDoubtful, filter_));
   ASSERT_EQ(memory_.rivals.size(), 2u);
   EXPECT_NEAR(memory_.rivals[0].log_odds, -3.0, 1e-9);
   EXPECT_NEAR(memory_.rivals[1].log_odds, std::log(0.5) - 3.0, 1e-9);
   EXPECT_EQ(memory_.rivals[1].T_map_base.x, -8.0);
 }
 
-TEST_F(RecoveryTest, WhereThePoseIsTrustedAWinnerIsToBeConfirmed) {
+TEST_F(RecoveryTest, AWinnerIsToBeConfirmedUnlessThePoseIsRefuted) {
   const Recovery recovery(
       RecoveryOptions{.rival_beams = FoundElsewhere::kBeams, .accept = 1.0, .sure = 1.0, .confirm = 2}, 1);
   memory_.rivals = {{{5, 0, 0}, 3.0}};
-  EXPECT_FALSE(recovery.take_over(memory_, kBelieved, true, filter_));
+  EXPECT_FALSE(recovery.take_over(memory_, kBelieved, Standing::kTrusted, filter_));
   memory_.rivals[0].scans = 2;
-  EXPECT_TRUE(recovery.take_over(memory_, kBelieved, true, filter_));
+  EXPECT_TRUE(recovery.take_over(memory_, kBelieved, Standing::kTrusted, filter_));
   memory_.rivals = {{{9, 0, 0}, 3.0}};
-  EXPECT_TRUE(recovery.take_over(memory_, kBelieved, false, filter_));
+  EXPECT_TRUE(recovery.take_over(memory_, kBelieved, Standing::kRefuted, filter_));
 }
 
 // A symmetric building: to choose one of two places would be wrong every other time.
 TEST_F(RecoveryTest, WhereTwoPlacesFitAlikeNoneTakesOver) {
   memory_.rivals = {{{5, 0, 0}, 6.0}, {{9, 0, 0}, 6.0}};
-  EXPECT_FALSE(recovery_.take_over(memory_, kBelieved, false, filter_));
+  EXPECT_FALSE(recovery_.take_over(memory_, kBelieved, Standing::kDoubtful, filter_));
   memory_.rivals[1].log_odds = 3.0;
-  EXPECT_TRUE(recovery_.take_over(memory_, kBelieved, false, filter_));
+  EXPECT_TRUE(recovery_.take_over(memory_, kBelieved, Standing::kDoubtful, filter_));
 }
 
 // ... but both are better than a belief that is refuted; the other one stays a rival.
 TEST_F(RecoveryTest, OneOfTwoPlacesTakesOverFromAHopelessBelief) {
   memory_.rivals = {{{5, 0, 0}, 12.0}, {{9, 0, 0}, 12.0}};
-  EXPECT_TRUE(recovery_.take_over(memory_, kBelieved, false, filter_));
+  EXPECT_TRUE(recovery_.take_over(memory_, kBelieved, Standing::kDoubtful, filter_));
   EXPECT_NEAR(Rivals::believed_share(memory_.rivals), 0.5, 1e-4);
 }
 
 // A crowd: what the map does not explain is no sign of a wrong place, and another one may well explain it.
 TEST_F(RecoveryTest, WhereTheMonitorHasNoDoubtItTakesMore) {
   memory_.rivals = {{{5, 0, 0}, 8.4}};
-  EXPECT_FALSE(recovery_.take_over(memory_, kBelieved, true, filter_));
+  EXPECT_FALSE(recovery_.take_over(memory_, kBelieved, Standing::kTrusted, filter_));
   memory_.rivals[0].log_odds = 8.6;  // accept 0.5 and sure 8
-  EXPECT_TRUE(recovery_.take_over(memory_, kBelieved, true, filter_));
+  EXPECT_TRUE(recovery_.take_over(memory_, kBelieved, Standing::kTrusted, filter_));
 }
 
 // People in the way block beams; that many beams pass through walls only from a wrong place, and one scan
 // tells.
-TEST_F(RecoveryTest, BeamsThroughWallsRefuteWhereverTheMonitorStillTrusts) {
-  EXPECT_TRUE(recovery_.trusted(0.95, BeamShares{.explained = 0.3, .blocked = 0.65, .beyond = 0.05}));
-  EXPECT_FALSE(recovery_.trusted(0.95, BeamShares{.explained = 0.5, .beyond = 0.2, .unknown = 0.3}));
-  EXPECT_FALSE(recovery_.trusted(0.5, BeamShares{.explained = 1.0}));
-  EXPECT_TRUE(recovery_.trusted(0.95, std::nullopt)) << "a sensor without beams";
+TEST_F(RecoveryTest, BeamsThroughWallsRefuteWhateverTheMonitorSays) {
+  EXPECT_EQ(recovery_.standing(0.95, BeamShares{.explained = 0.3, .blocked = 0.65, .beyond = 0.05}),
+            Standing::kTrusted);
+  EXPECT_EQ(recovery_.standing(0.95, BeamShares{.explained = 0.5, .beyond = 0.2, .unknown = 0.3}),
+            Standing::kRefuted);
+  EXPECT_EQ(recovery_.standing(0.5, BeamShares{.explained = 1.0}), Standing::kDoubtful);
+  EXPECT_EQ(recovery_.standing(0.95, std::nullopt), Standing::kTrusted) << "a sensor without beams";
+}
+
+TEST_F(RecoveryTest, ARefutedBeliefGivesWayToWhatIsMoreProbableThanAllElse) {
+  const Recovery recovery(RecoveryOptions{}, 1);
+  memory_.rivals = {{{5, 0, 0}, 1.2}};
+  EXPECT_FALSE(recovery.take_over(memory_, kBelieved, Standing::kDoubtful, filter_));
+  EXPECT_TRUE(recovery.take_over(memory_, kBelieved, Standing::kRefuted, filter_));
+  memory_.rivals = {{{5, 0, 0}, 1.2}, {{9, 0, 0}, 1.2}};
+  EXPECT_FALSE(recovery.take_over(memory_, kBelieved, Standing::kRefuted, filter_));
 }
 
 TEST_F(RecoveryTest, OneOfManyPlacesDoesNot) {
   for (const double log_odds : {12.0, 5000.0}) {
     memory_.rivals.clear();
     for (int i = 0; i < 4; ++i) memory_.rivals.push_back({{5.0 + 3.0 * i, 0, 0}, log_odds});
-    EXPECT_FALSE(recovery_.take_over(memory_, kBelieved, false, filter_));
+    EXPECT_FALSE(recovery_.take_over(memory_, kBelieved, Standing::kDoubtful, filter_));
   }
 }
 
