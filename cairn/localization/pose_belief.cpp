@@ -209,7 +209,7 @@ void PoseBelief::judge_by_rivals(bool trusted) {
   if (judgement.state == TrackingState::kSensorFault) return;
   if (right < 0.5 && !trusted) {
     judgement.state = TrackingState::kLost;
-  } else if (share < 0.9) {
+  } else if (share < 0.9 && judgement.state != TrackingState::kLost) {
     judgement.state = TrackingState::kAmbiguous;
   }
 }

@@ -97,6 +97,19 @@ TEST_F(PoseBeliefTest, BeamsThroughWallsAreEnoughWhereTheMonitorDoesNotDoubt) {
   EXPECT_LT(error_at_the_end(kElsewhere), 0.15);
 }
 
+// One scan fits well at some place of any map: with that alone the pose is doubtful, but nobody is lost.
+TEST_F(PoseBeliefTest, ATrustedPoseIsCalledAmbiguousByItsRivals) {
+  LocalizerOptions options;
+  options.recovery.refuted = 2.0;
+  make(options);
+  carry_away();
+  const auto doubted = std::find_if(estimates_.begin(), estimates_.end(), [](const Estimate& e) {
+    return e.stamp > at(5.0) && e.judgement.probability < 0.5;
+  });
+  ASSERT_NE(doubted, estimates_.end());
+  EXPECT_EQ(doubted->judgement.state, TrackingState::kAmbiguous);
+}
+
 TEST_F(PoseBeliefTest, NoRivalTakesOverFromAMonitorThatNeverDoubts) {
   LocalizerOptions options;
   options.recovery.sure = 1000.0;

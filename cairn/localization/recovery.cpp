@@ -90,7 +90,8 @@ bool Recovery::doubtful(double right, double explained, double usual) const {
 }
 
 Standing Recovery::standing(double right, const std::optional<BeamShares>& seen) const {
-  if (seen && seen->beyond + seen->unknown >= options_.refuted) return Standing::kRefuted;
+  const bool enough = seen && static_cast<double>(seen->beams) >= options_.rival_beams;
+  if (enough && seen->beyond + seen->unknown >= options_.refuted) return Standing::kRefuted;
   return right >= options_.doubt ? Standing::kTrusted : Standing::kDoubtful;
 }
 

@@ -90,7 +90,8 @@ class Recovery {
   /// @param right probability of the pose, the scan included
   /// @param explained share of its beams that the map explains there; usual: the average so far
   bool doubtful(double right, double explained, double usual) const;
-  /// @param seen classes of the scan's beams at the believed pose, if it has any
+  /// @param seen classes of the scan's beams at the believed pose, if it has any; fewer than `rival_beams` of
+  /// them refute nothing
   Standing standing(double right, const std::optional<BeamShares>& seen) const;
   /// Whether a scan is worth an update though the robot has not moved: it is not what was seen here before.
   bool surprising(double explained_before, double explained_now) const;

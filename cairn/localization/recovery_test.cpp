@@ -136,11 +136,16 @@ TEST_F(RecoveryTest, WhereTheMonitorHasNoDoubtItTakesMore) {
 // People in the way block beams; that many beams pass through walls only from a wrong place, and one scan
 // tells.
 TEST_F(RecoveryTest, BeamsThroughWallsRefuteWhateverTheMonitorSays) {
-  EXPECT_EQ(recovery_.standing(0.95, BeamShares{.explained = 0.3, .blocked = 0.65, .beyond = 0.05}),
-            Standing::kTrusted);
-  EXPECT_EQ(recovery_.standing(0.95, BeamShares{.explained = 0.5, .beyond = 0.2, .unknown = 0.3}),
-            Standing::kRefuted);
-  EXPECT_EQ(recovery_.standing(0.5, BeamShares{.explained = 1.0}), Standing::kDoubtful);
+  EXPECT_EQ(
+      recovery_.standing(0.95, BeamShares{.explained = 0.3, .blocked = 0.65, .beyond = 0.05, .beams = 60}),
+      Standing::kTrusted);
+  EXPECT_EQ(
+      recovery_.standing(0.95, BeamShares{.explained = 0.5, .beyond = 0.2, .unknown = 0.3, .beams = 60}),
+      Standing::kRefuted);
+  EXPECT_EQ(recovery_.standing(0.95, BeamShares{.explained = 0.5, .beyond = 0.5, .beams = 1}),
+            Standing::kTrusted)
+      << "a single beam";
+  EXPECT_EQ(recovery_.standing(0.5, BeamShares{.explained = 1.0, .beams = 60}), Standing::kDoubtful);
   EXPECT_EQ(recovery_.standing(0.95, std::nullopt), Standing::kTrusted) << "a sensor without beams";
 }
 

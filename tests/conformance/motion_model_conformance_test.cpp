@@ -53,7 +53,6 @@ TEST_P(MotionModelLaws, IndependentOfChunksAndPure) {
   }
 }
 
-// Up to the single precision in which a model may draw its noise (decision 101): a millionth of the step.
 TEST_P(MotionModelLaws, FollowsTheStartPose) {
   const Pose2 T{-40, 7, 2.2}, start{1, 2, 3};
   for (const Pose2& control : kControls) {
@@ -61,10 +60,10 @@ TEST_P(MotionModelLaws, FollowsTheStartPose) {
     const auto there = propagated(control, std::vector<Pose2>(500, T * start));
     for (std::size_t i = 0; i < here.size(); ++i) {
       const Pose2 expected = T * here[i];
-      const double tolerance = 1e-9 + 1e-6 * distance(here[i], start);
+      const double tolerance = 5e-11 + GetParam().precision * distance(here[i], start);
       ASSERT_NEAR(there[i].x, expected.x, tolerance);
       ASSERT_NEAR(there[i].y, expected.y, tolerance);
-      ASSERT_NEAR(angle_difference(there[i].theta, expected.theta), 0.0, 1e-8);
+      ASSERT_NEAR(angle_difference(there[i].theta, expected.theta), 0.0, 1e-12 + 0.01 * GetParam().precision);
     }
   }
 }
