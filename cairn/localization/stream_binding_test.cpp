@@ -76,6 +76,16 @@ TEST_F(StreamBinding, AllBeamsCountWhileTheBeliefIsSpread) {
   EXPECT_EQ(asked_, 0u);
 }
 
+TEST_F(StreamBinding, ALostRobotIsLookedForBehindACrowdAsFarAsItIsTold) {
+  LaserScan scan = test::scan_of(room_, kTruth, 180);
+  for (std::size_t i = 0; i < 144; ++i) scan.ranges_m[i] = std::min(scan.ranges_m[i], 0.5f);
+  const std::vector<Glimpse> surrounded{{std::make_shared<const LaserScan>(scan), {}}};
+  LocalizerOptions all_beams;
+  all_beams.recovery.crowd_m = 0.0;
+  EXPECT_GT(laser({})->search(surrounded).value().size(),
+            laser(all_beams)->search(surrounded).value().size());
+}
+
 TEST_F(StreamBinding, GradientRefinementNeedsAGradient) {
   LocalizerOptions options;
   options.recipe = "cgr";
