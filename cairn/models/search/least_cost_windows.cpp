@@ -96,8 +96,8 @@ LeastCostWindows::Plane LeastCostWindows::in_order(const Windows& windows, int t
     const int all = plane.margin_ + cells + 4 * stride(tier);
     return whole((all >> plane.shift_) + 1);
   };
-  plane.row_step_ = places_for(box_.columns);
-  plane.phase_size_ = plane.row_step_ * places_for(box_.rows);
+  plane.row_step_ = 4 * places_for(box_.columns);
+  plane.phase_size_ = plane.row_step_ * (places_for(box_.rows) / 4 + 2);
   plane.steps_.assign(plane.phase_size_ << (2 * plane.shift_), kMost);
   const std::size_t within = (std::size_t{1} << plane.shift_) - 1;
   const auto first = whole(plane.margin_ - windows.size);
@@ -106,10 +106,11 @@ LeastCostWindows::Plane LeastCostWindows::in_order(const Windows& windows, int t
     const std::uint8_t* from = &windows.steps[place(-windows.size, row)];
     // Where the row begins, in the first phase of the columns.
     const auto r = whole(row + plane.margin_);
+    const std::size_t place = r >> plane.shift_;
     std::uint8_t* to = plane.steps_.data() + ((r & within) << plane.shift_) * plane.phase_size_ +
-                       (r >> plane.shift_) * plane.row_step_;
+                       place / 4 * plane.row_step_ + place % 4;
     for (std::size_t c = first; c < first + count; ++c)
-      to[(c & within) * plane.phase_size_ + (c >> plane.shift_)] = *from++;
+      to[(c & within) * plane.phase_size_ + 4 * (c >> plane.shift_)] = *from++;
   }
   return plane;
 }

@@ -2,6 +2,7 @@
 
 #include "cairn/core/large_vector.hpp"
 #include "cairn/maps/distance_field.hpp"
+#include "cairn/models/search/block_sums.hpp"
 #include "cairn/models/sensor/likelihood_field.hpp"
 
 #include <algorithm>
@@ -45,27 +46,28 @@ class LeastCostWindows {
    public:
     int size() const { return size_; }
     /// Any integers: a window off the map costs the most.
-    std::uint8_t at(int column, int row) const { return *block(column, row); }
-    /// The windows at (column + j stride, row + i stride), i and j from 0 to 3: j next to each other, i
-    /// row_step() apart. Any integers.
-    const std::uint8_t* block(int column, int row) const {
+    std::uint8_t at(int column, int row) const { return block(column, row).at(0, 0); }
+    /// The windows at (column + j stride, row + i stride), i and j from 0 to 3, as place (j, i). Any
+    /// integers.
+    BlockPlace block(int column, int row) const {
       const int from_left = std::clamp(column, -margin_, columns_) + margin_;
       const int from_below = std::clamp(row, -margin_, rows_) + margin_;
       const auto c = static_cast<std::size_t>(from_left), r = static_cast<std::size_t>(from_below);
       const std::size_t within = (std::size_t{1} << shift_) - 1;
       const std::size_t phase = ((r & within) << shift_) + (c & within);
-      return steps_.data() + phase * phase_size_ + (r >> shift_) * row_step_ + (c >> shift_);
+      const std::size_t place = r >> shift_;
+      return {steps_.data() + phase * phase_size_ + place / 4 * row_step_ + 4 * (c >> shift_), row_step_,
+              static_cast<unsigned>(place % 4)};
     }
-    std::size_t row_step() const { return row_step_; }
 
    private:
     friend class LeastCostWindows;
     int size_ = 0;
     int columns_ = 0;
     int rows_ = 0;
-    int margin_ = 0;  ///< of columns and rows whose blocks are off the map
-    int shift_ = 0;   ///< log2 of the stride
-    std::size_t row_step_ = 0;
+    int margin_ = 0;            ///< of columns and rows whose blocks are off the map
+    int shift_ = 0;             ///< log2 of the stride
+    std::size_t row_step_ = 0;  ///< of four rows, see BlockPlace
     std::size_t phase_size_ = 0;
     LargeVector<std::uint8_t> steps_;
   };

@@ -67,11 +67,10 @@ TEST_F(LeastCostWindowsTest, ABlockHoldsWindowsAStrideApart) {
     const int step = LeastCostWindows::stride(tier);
     for (const auto& plane : windows_.planes(tier)) {
       for (const auto& [column, row] : {std::pair{3, 5}, {-70, 40}, {158, 97}, {-900, 20}, {20, 900}}) {
-        const std::uint8_t* block = plane.block(column, row);
+        const BlockPlace block = plane.block(column, row);
         for (int i = 0; i < 16; ++i) {
-          EXPECT_EQ(
-              block[static_cast<std::size_t>(i / 4) * plane.row_step() + static_cast<std::size_t>(i % 4)],
-              plane.at(column + i % 4 * step, row + i / 4 * step))
+          EXPECT_EQ(block.at(static_cast<std::size_t>(i % 4), static_cast<std::size_t>(i / 4)),
+                    plane.at(column + i % 4 * step, row + i / 4 * step))
               << column << ' ' << row << ' ' << plane.size() << ' ' << i;
         }
       }

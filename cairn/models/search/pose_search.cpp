@@ -262,7 +262,7 @@ class BranchAndBound {
       const auto* plane =
           side > LeastCostWindows::kLargest ? nullptr : planes[static_cast<std::size_t>(side)];
       if (plane == nullptr) continue;  // no bound
-      sums.add(plane->block(from.column + r.column, from.row + r.row), plane->row_step());
+      sums.add(plane->block(from.column + r.column, from.row + r.row));
     }
     result_.evaluated += static_cast<std::int64_t>(last - first);
   }
