@@ -18,8 +18,8 @@ OccupancyGrid random_grid(int width, int height, double walls, std::uint64_t ste
   std::vector<OccupancyGrid::Cell> cells(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const auto u = random.uniform4(static_cast<std::uint32_t>(i));
-    cells[i] =
-        u[0] < walls ? 66 : (u[1] < 0.3 ? OccupancyGrid::kUnknown : static_cast<std::int8_t>(65 * u[2]));
+    cells[i] = u[0] < walls ? std::int8_t{66}
+                            : (u[1] < 0.3 ? OccupancyGrid::kUnknown : static_cast<std::int8_t>(65 * u[2]));
   }
   return {{width, height, 0.05, {}}, std::move(cells)};
 }
