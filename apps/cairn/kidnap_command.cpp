@@ -1,4 +1,5 @@
 #include "apps/cairn/commands.hpp"
+#include "apps/cairn/kidnap_evidence.hpp"
 #include "apps/cairn/kidnap_run.hpp"
 #include "apps/cairn/output_file.hpp"
 #include "apps/cairn/run_directory.hpp"
@@ -70,7 +71,10 @@ struct Run {
   KidnapOutcome outcome;
   std::vector<JudgedEstimate> estimates;
   Time kidnapped;
+  std::optional<double>
+      truth_log_odds;  ///< what the first kToldWithin_s say for the truth, if it is not found
 };
+constexpr double kToldWithin_s = 10.0;
 
 class Campaign {
  public:
@@ -100,14 +104,26 @@ class Campaign {
  private:
   Run spliced(const Kidnapping& kidnapping, std::size_t index) const {
     const Splice joined = splice(first_.posed(), second_.posed(), kidnapping, arguments_.kidnap);
-    Run run{fmt::format("event{:03}", index), kidnapping, {}, {}, joined.kidnapped};
+    Run run{fmt::format("event{:03}", index), kidnapping, {}, {}, joined.kidnapped, {}};
     run.estimates = localized(joined.log, joined.reference, seed_ + index);
     run.outcome = judge_kidnapping(run.estimates, joined.kidnapped);
+    run.truth_log_odds = truth_log_odds(joined, run.estimates);
     return run;
   }
 
+  std::optional<double> truth_log_odds(const Splice& joined, const std::vector<JudgedEstimate>& run) const {
+    const Time until = joined.kidnapped + duration_from_seconds(kToldWithin_s);
+    const auto after = std::find_if(run.begin(), run.end(),
+                                    [&](const JudgedEstimate& e) { return e.estimate.stamp > until; });
+    if (after == run.begin() || std::prev(after)->right()) return std::nullopt;
+    const Estimate& last = std::prev(after)->estimate;
+    return evidence_for_truth(joined.log.events,
+                              bind_streams(options_, joined.log.streams, MapLibrary(maps_)), joined.reference,
+                              {joined.kidnapped, last.stamp, last.T_map_base}, options_.recovery);
+  }
+
   Run whole() const {
-    Run run{"whole", {}, {}, {}, first_.log.events.back().stamp};
+    Run run{"whole", {}, {}, {}, first_.log.events.back().stamp, {}};
     run.kidnapping.from = run.kidnapping.to = run.kidnapped;
     run.estimates = localized(first_.log, first_.reference, seed_);
     run.outcome = judge_kidnapping(run.estimates, run.kidnapped);
@@ -136,14 +152,15 @@ class Campaign {
 std::string events_csv(const std::vector<Run>& runs) {
   std::string text =
       "event,from_s,to_s,distance_m,right_before,lost_after_s,found_after_s,sure_and_wrong_s,false_alarms,"
-      "before_s\n";
+      "before_s,truth_log_odds\n";
   for (const Run& r : runs) {
     const double before_s =
         r.estimates.empty() ? 0.0 : to_seconds(r.kidnapped - r.estimates.front().estimate.stamp);
-    text += fmt::format("{},{},{},{:.2f},{:d},{:.3f},{:.3f},{:.3f},{},{:.1f}\n", r.name,
+    text += fmt::format("{},{},{},{:.2f},{:d},{:.3f},{:.3f},{:.3f},{},{:.1f},{}\n", r.name,
                         format_time(r.kidnapping.from), format_time(r.kidnapping.to), r.kidnapping.distance_m,
                         r.outcome.right_before, r.outcome.lost_after_s, r.outcome.found_after_s,
-                        r.outcome.sure_and_wrong_s, r.outcome.false_alarms, before_s);
+                        r.outcome.sure_and_wrong_s, r.outcome.false_alarms, before_s,
+                        r.truth_log_odds ? fmt::format("{:.2f}", *r.truth_log_odds) : "");
   }
   return text;
 }
