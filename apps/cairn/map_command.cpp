@@ -160,9 +160,10 @@ void add_build(CLI::App& parent, Runner& run) {
       ->required();
   command->add_option("--trajectory", a->trajectory, "Poses in the map, in the log's clock")->required();
   command
-      ->add_option(
-          "--out", a->out,
-          "Map to write: NAME.yaml (its picture becomes NAME.png), or NAME.ndt: normal distributions")
+      ->add_option("--out", a->out,
+                   "Map to write: NAME.yaml (its picture becomes NAME.png), or NAME.ndt: normal "
+                   "distributions; a map uses "
+                   "them where its YAML file has a line `ndt: NAME.ndt`")
       ->required();
   add_posed_scan_options(*command, a->scans);
   command->add_option("--resolution", grid.resolution_m, "Cell size, m")->capture_default_str();

@@ -30,7 +30,9 @@ using AnyMap = std::variant<std::shared_ptr<const OccupancyGrid>, std::shared_pt
 AnyMap read_any_map(const std::filesystem::path& path, Diagnostics& diagnostics, const DxfOptions& dxf = {});
 
 /// The same as a set of maps for a localizer. A vector map comes with the grid that is drawn from it
-/// (draw_walls, 5 cm; coarser if that would be more than 10^8 cells).
+/// (draw_walls, 5 cm; coarser if that would be more than 10^8 cells). A YAML file may name an NDT map and a
+/// vector map of the same place in lines `ndt: FILE` and `walls: FILE`: models use them in place of what they
+/// would derive from the grid.
 std::shared_ptr<MapSet> read_map_set(const std::filesystem::path& path, Diagnostics& diagnostics);
 
 /// Gives a set one more representation of the same place, in the same frame.

@@ -2,6 +2,7 @@
 
 #include "cairn/core/errors.hpp"
 #include "cairn/io/map_yaml.hpp"
+#include "cairn/io/ndt_file.hpp"
 #include "test_data.hpp"
 
 #include <fstream>
@@ -105,6 +106,37 @@ TEST_F(ReadMap, ReadsTheRealMaps) {
     EXPECT_NEAR(map->geometry().resolution_m, resolution_m, 1e-12) << file;
     EXPECT_GT(map->count(CellState::kOccupied), 1000u) << file;
     EXPECT_GT(map->count(CellState::kFree), 10000u) << file;
+  }
+}
+
+TEST_F(ReadMap, TakesTheRepresentationsThatTheYamlFileNames) {
+  write_map(folder_ / "m.yaml", every_value());
+  const std::vector<Point2> points{{0.1, 0.1}, {0.2, 0.1}, {0.3, 0.15}};
+  std::ofstream ndt(folder_ / "m.ndt");
+  write_ndt(ndt, ndt_from_points(points, {}));
+  ndt.close();
+  write("walls.txt", "0,0,1,0\n1,0,1,1\n");
+  std::ofstream(folder_ / "m.yaml", std::ios::app) << "ndt: m.ndt\nwalls: walls.txt\n";
+  Diagnostics diagnostics;
+  const auto maps = read_map_set(folder_ / "m.yaml", diagnostics);
+  EXPECT_TRUE(diagnostics.counts().empty());
+  ASSERT_NE(maps->find<NdtMap>(), nullptr);
+  EXPECT_EQ(maps->find<NdtMap>()->cells().size(), ndt_from_points(points, {}).cells().size());
+  ASSERT_NE(maps->find<VectorMap>(), nullptr);
+  EXPECT_EQ(maps->find<VectorMap>()->walls().size(), 2u);
+  EXPECT_EQ(maps->grid()->geometry(), every_value().geometry()) << "the grid is the picture, not the walls";
+}
+
+TEST_F(ReadMap, RefusesARepresentationOfAnotherKind) {
+  write_map(folder_ / "m.yaml", every_value());
+  write("walls.txt", "0,0,1,0\n");
+  std::ofstream(folder_ / "m.yaml", std::ios::app) << "ndt: walls.txt\n";
+  Diagnostics diagnostics;
+  try {
+    read_map_set(folder_ / "m.yaml", diagnostics);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("names walls.txt as its NDT map, which it is not"));
   }
 }
 

@@ -18,8 +18,8 @@ namespace {
 constexpr double kMinResolutionM = 1e-4;
 constexpr double kMaxResolutionM = 100.0;
 constexpr double kCoarsestPlausibleM = 1.0;
-constexpr std::array<const char*, 7> kKeys = {"image",           "resolution",  "origin", "negate",
-                                              "occupied_thresh", "free_thresh", "mode"};
+constexpr std::array<const char*, 9> kKeys = {
+    "image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh", "mode", "ndt", "walls"};
 
 /// Typed access to the keys of one YAML file, with its places for messages.
 class MapYaml {
@@ -118,6 +118,8 @@ MapDescription describe(const MapYaml& yaml) {
   map.T_map_grid = read_origin(yaml);
   if (yaml.has("negate")) map.negate = read_negate(yaml);
   if (yaml.has("mode")) map.mode = read_mode(yaml);
+  if (yaml.has("ndt")) map.ndt = yaml.text(yaml.require("ndt"), "ndt");
+  if (yaml.has("walls")) map.walls = yaml.text(yaml.require("walls"), "walls");
   auto& [occupied, free] = map.thresholds;
   if (yaml.has("occupied_thresh")) {
     occupied = yaml.number(yaml.require("occupied_thresh"), "occupied_thresh", 0.0, 1.0);

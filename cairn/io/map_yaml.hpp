@@ -26,6 +26,9 @@ struct MapDescription {
   bool negate = false;
   OccupancyGrid::Thresholds thresholds;  ///< nav2's defaults where the file names none
   Mode mode = Mode::kTrinary;
+  /// Beyond map_server: files with the same place as normal distributions and as walls (read_map_set), in the
+  /// same frame, relative to the YAML file's folder; empty: none.
+  std::string ndt, walls;
 };
 
 /// Reads the YAML text. `image`, `resolution` and `origin` must be there; an unknown key is counted as a

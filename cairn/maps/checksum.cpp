@@ -43,13 +43,28 @@ std::uint64_t checksum(const VectorMap& map) {
   return fnv.hash();
 }
 
+std::uint64_t checksum(const NdtMap& map) {
+  Fnv1a fnv;
+  const NdtGeometry& geometry = map.geometry();
+  for (const double v : {geometry.cell_size_m, geometry.T_map_ndt.x, geometry.T_map_ndt.y,
+                         geometry.T_map_ndt.theta, static_cast<double>(geometry.columns)})
+    fnv.add(v);
+  for (const NdtCell& cell : map.cells()) {
+    fnv.add(std::uint64_t{cell.index});
+    for (const double v : {cell.mean.x, cell.mean.y, cell.xx, cell.xy, cell.yy, cell.occupancy}) fnv.add(v);
+  }
+  return fnv.hash();
+}
+
 std::uint64_t checksum(const MapSet& maps) {
   const std::uint64_t grid = checksum(*maps.grid());
   const auto walls = maps.find<VectorMap>();
-  if (!walls) return grid;
+  const auto ndt = maps.find<NdtMap>();
+  if (!walls && !ndt) return grid;
   Fnv1a fnv;
   fnv.add(grid);
-  fnv.add(checksum(*walls));
+  if (walls) fnv.add(checksum(*walls));
+  if (ndt) fnv.add(checksum(*ndt));
   return fnv.hash();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cairn/maps/map_set.hpp"
+#include "cairn/maps/ndt_map.hpp"
 #include "cairn/maps/occupancy_grid.hpp"
 #include "cairn/maps/vector_map.hpp"
 
@@ -13,7 +14,10 @@ namespace cairn {
 std::uint64_t checksum(const OccupancyGrid& grid);
 /// Likewise of the walls, in their order.
 std::uint64_t checksum(const VectorMap& map);
-/// Of all that was read of a map: its grid, and its walls if it has any (a grid alone keeps its checksum).
+/// Likewise of the normal distributions.
+std::uint64_t checksum(const NdtMap& map);
+/// Of all that was read of a map: its grid, and walls and normal distributions if it has any (a grid alone
+/// keeps its checksum).
 /// @throws ConfigurationError if the set has no grid
 std::uint64_t checksum(const MapSet& maps);
 

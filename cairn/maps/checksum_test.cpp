@@ -38,5 +38,19 @@ TEST(Checksum, OfASetCoversTheWallsToo) {
   EXPECT_NE(with_wall(1.0), checksum(*grid));
 }
 
+TEST(Checksum, OfASetCoversTheNormalDistributionsToo) {
+  const auto grid = std::make_shared<const OccupancyGrid>(GridGeometry{2, 1, 0.05, {0, 0, 0}},
+                                                          std::vector<OccupancyGrid::Cell>{0, 100});
+  const auto with_ndt = [&](double x) {
+    const std::vector<Point2> points{{x, 0.1}, {x + 0.1, 0.1}, {x + 0.2, 0.15}};
+    MapSet maps(grid);
+    maps.add(std::make_shared<const NdtMap>(ndt_from_points(points, {})));
+    return checksum(maps);
+  };
+  EXPECT_EQ(with_ndt(0.1), with_ndt(0.1));
+  EXPECT_NE(with_ndt(0.1), with_ndt(0.101));
+  EXPECT_NE(with_ndt(0.1), checksum(*grid));
+}
+
 }  // namespace
 }  // namespace cairn
