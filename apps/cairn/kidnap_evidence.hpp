@@ -19,8 +19,8 @@ struct BelievedWay {
 /// What the measurements of a span say for the true way against the believed one, as log-odds (nat): the way
 /// that led to the believed pose is the true one, moved there as a whole. Measured as rivals are
 /// (Rivals::evidence, RecoveryOptions::news_m), places following each scan by some decimetres. 0 and less:
-/// the map explains the wrong way at least as well, and nobody who knows no more than map and measurements
-/// can tell. nullopt: no stream has evidence for places, or the reference does not reach to the end.
+/// by that measure the map explains the wrong way at least as well. nullopt: no stream has evidence for
+/// places, or the reference does not reach to the end.
 std::optional<double> evidence_for_truth(std::span<const Event> events, const StreamBindings& streams,
                                          const Trajectory& reference, const BelievedWay& way,
                                          const RecoveryOptions& options);
