@@ -40,7 +40,9 @@ PoseBelief::PoseBelief(Parts parts)
   state_.used_at.resize(models_.size());
   state_.offered.resize(models_.size());
   state_.explained.resize(models_.size());
+  state_.looks.resize(models_.size());
   state_.monitor = Monitor::begin(models_.size(), global_start_ != nullptr);
+  if (recovery_) state_.recovery = recovery_->begin(global_start_ != nullptr);
 }
 
 PoseBelief::Application PoseBelief::apply(const Event& event, const OdometryTrack& odometry,
@@ -49,8 +51,10 @@ PoseBelief::Application PoseBelief::apply(const Event& event, const OdometryTrac
   ++state_.offered[event.stream];
   if (!state_.started && !may_begin(*models_[event.stream], event.payload)) return {};
   Application applied;
+  const Link link = link_to_last(event, odometry);
+  if (recovery_) recovery_->note(state_.recovery, link, event.stamp);
   if (!state_.started || worth_an_update(event.stream, event.stamp, odometry, scheduler) ||
-      surprises(event, odometry))
+      link == Link::kBroken || surprises(event, odometry))
     applied = update(event, odometry);
   state_.started = true;
   state_.stamp = event.stamp;
@@ -65,6 +69,9 @@ void PoseBelief::resolve_anchors(const OdometryTrack& odometry) {
   if (state_.started) resolve(state_.updated_at);
   for (auto& anchor : state_.used_at) {
     if (anchor) resolve(*anchor);
+  }
+  for (auto& look : state_.looks) {
+    if (look) resolve(look->at);
   }
 }
 
@@ -98,6 +105,17 @@ bool PoseBelief::surprises(const Event& event, const OdometryTrack& odometry) co
   return recovery_->surprising(*last, model.explained_share(event.payload, now));
 }
 
+Link PoseBelief::link_to_last(const Event& event, const OdometryTrack& odometry) {
+  const StreamModel& model = *models_[event.stream];
+  if (!recovery_ || !model.can_continue() || !model.informs(event.payload)) return Link::kHolds;
+  const std::optional<Look> last =
+      std::exchange(state_.looks[event.stream], Look{event.payload, odometry.anchor_at(event.stamp)});
+  if (!last) return Link::kHolds;
+  const PoseControl moved = odometry.control(last->at, event.stamp);
+  if (moved.unknown_s > 0.0) return Link::kUnknown;
+  return recovery_->link(model.continued_share(last->z, event.payload, moved.T_before_after));
+}
+
 PoseBelief::Application PoseBelief::update(const Event& event, const OdometryTrack& odometry) {
   const StreamModel& model = *models_[event.stream];
   const bool informs = model.informs(event.payload);
@@ -126,8 +144,8 @@ PoseBelief::Application PoseBelief::update(const Event& event, const OdometryTra
   state_.offered[event.stream] = 0;
   summarize(moved.T_before_after, since_s);
   if (informs && !anywhere) search(model, event);
-  judge(model, event, moved.T_before_after);
-  recover(model, event, moved.T_before_after, since_s);
+  const auto seen = judge(model, event, moved.T_before_after);
+  recover(model, event, moved.T_before_after, since_s, seen);
   GlobalSearch::temper(state_.search, state_.updated.judgement);
   return {informs, {model.beams(event.payload), static_cast<std::int64_t>(filter_->size())}};
 }
@@ -151,7 +169,9 @@ void PoseBelief::summarize(const Pose2& moved, double since_s) {
   state_.updated.weight = places[0].weight;
 }
 
-void PoseBelief::judge(const StreamModel& model, const Event& event, const Pose2& moved) {
+// Returns how the beams stand to the map.
+std::optional<BeamShares> PoseBelief::judge(const StreamModel& model, const Event& event,
+                                            const Pose2& moved) {
   Estimate& now = state_.updated;
   const Pose2 predicted = state_.pose * moved;
   state_.pose = now.T_map_base;
@@ -160,12 +180,14 @@ void PoseBelief::judge(const StreamModel& model, const Event& event, const Pose2
     now.quality = model.explained_share(event.payload, now.T_map_base);
     state_.explained[event.stream] = now.quality;
   }
+  const std::optional<BeamShares> seen = model.classify(event.payload, now.T_map_base);
   now.judgement = monitor_.update(state_.monitor,
                                   {.stream = event.stream,
-                                   .seen = model.classify(event.payload, now.T_map_base),
+                                   .seen = seen,
                                    .quality = now.quality,
                                    .places = state_.track.places,
                                    .innovation_m = state_.started ? apart(predicted, now.T_map_base) : 0.0});
+  return seen;
 }
 
 // Where else a robot may be that is still being looked for.
@@ -177,26 +199,30 @@ void PoseBelief::search(const StreamModel& model, const Event& event) {
 }
 
 // Where a rival wins, the monitor begins anew.
-void PoseBelief::recover(const StreamModel& model, const Event& event, const Pose2& moved, double since_s) {
+void PoseBelief::recover(const StreamModel& model, const Event& event, const Pose2& moved, double since_s,
+                         const std::optional<BeamShares>& seen) {
   if (!recovery_) return;
   RecoveryMemory& memory = state_.recovery;
   const Pose2& believed = state_.updated.T_map_base;
   const double right = monitor_.right(state_.monitor);
-  const bool in_doubt = recovery_->doubtful(right, state_.updated.judgement.explained,
+  const bool doubtful = recovery_->doubtful(right, state_.updated.judgement.explained,
                                             state_.monitor.streams[event.stream].usual_explained);
   Recovery::carry(memory, moved, since_s);
+  if (!doubtful) memory.doubted_m = 0.0;
+  if (state_.search.searching) Recovery::unsettle(memory);
+  const bool in_doubt = memory.carried || (doubtful && !recovery_->anchored(memory));
   if (model.informs(event.payload))
     recovery_->observe(memory, event.stream, model, event.payload, believed, in_doubt);
   recovery_->search(memory, model, event.stamp, believed);
-  const Standing standing = recovery_->standing(
-      right, memory.rivals.empty() ? std::nullopt : model.classify(event.payload, believed));
+  const Standing standing = recovery_->standing(right, seen);
   const bool elsewhere = recovery_->take_over(memory, state_.track.places, standing, *filter_);
   if (elsewhere) {
     summarize({}, 0.0);
     state_.pose = state_.updated.T_map_base;
-    state_.updated.quality = model.explained_share(event.payload, state_.updated.T_map_base);
+    judge(model, event, {});
   }
   judge_by_rivals(standing == Standing::kTrusted && !elsewhere);
+  recovery_->settle(memory, right, standing);
 }
 
 // What the rivals leave of the belief. A pose that nothing else speaks against is called ambiguous by them,
@@ -206,6 +232,7 @@ void PoseBelief::judge_by_rivals(bool trusted) {
   const double share = Rivals::believed_share(state_.recovery.rivals);
   const double right = monitor_.right(state_.monitor) * share;
   judgement.probability = state_.updated.weight * right;
+  if (state_.recovery.carried) judgement.probability *= GlobalSearch::kMostUnconfirmed;
   if (judgement.state == TrackingState::kSensorFault) return;
   if (right < 0.5 && !trusted) {
     judgement.state = TrackingState::kLost;

@@ -74,6 +74,10 @@ class PoseBelief {
   void forget_start() { global_start_.reset(); }
 
  private:
+  struct Look {
+    Event::Payload z;
+    OdometryAnchor at;
+  };
   struct State {
     bool started = false;
     Time stamp;
@@ -82,6 +86,7 @@ class PoseBelief {
     std::vector<std::optional<OdometryAnchor>> used_at;  ///< per stream, its last measurement that was used
     std::vector<std::int64_t> offered;                   ///< per stream, how many came since
     std::vector<std::optional<double>> explained;        ///< per stream, share of it that the map explained
+    std::vector<std::optional<Look>> looks;              ///< per stream, its last measurement
     HypothesisTrack track;
     Pose2 pose;  ///< of the last update, for the innovation
     MonitorMemory monitor;
@@ -107,10 +112,12 @@ class PoseBelief {
   bool may_begin(const StreamModel& model, const Event::Payload& z) const;
   Application update(const Event& event, const OdometryTrack& odometry);
   void summarize(const Pose2& moved, double since_s);
-  void judge(const StreamModel& model, const Event& event, const Pose2& moved);
-  void recover(const StreamModel& model, const Event& event, const Pose2& moved, double since_s);
+  std::optional<BeamShares> judge(const StreamModel& model, const Event& event, const Pose2& moved);
+  void recover(const StreamModel& model, const Event& event, const Pose2& moved, double since_s,
+               const std::optional<BeamShares>& seen);
   void judge_by_rivals(bool trusted);
   bool surprises(const Event& event, const OdometryTrack& odometry) const;
+  Link link_to_last(const Event& event, const OdometryTrack& odometry);
   void add_rivals(const Pose2& T_then_now, double since_s, HypothesisSnapshot& snapshot) const;
   void search(const StreamModel& model, const Event& event);
 

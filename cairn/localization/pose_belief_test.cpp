@@ -110,8 +110,22 @@ TEST_F(PoseBeliefTest, ATrustedPoseIsCalledAmbiguousByItsRivals) {
   EXPECT_EQ(doubted->judgement.state, TrackingState::kAmbiguous);
 }
 
+// Neither the monitor nor the map says anything: the scans alone do not go on where they left off.
+TEST_F(PoseBeliefTest, AScanThatDoesNotGoOnIsEnough) {
+  LocalizerOptions options;
+  options.recovery.doubt = 0.0;
+  options.recovery.drop = 1.0;
+  options.recovery.surprise = 0.0;
+  options.recovery.refuted = 2.0;
+  make(options);
+  carry_away();
+  EXPECT_FALSE(rivals_before_);
+  EXPECT_LT(error_at_the_end(kElsewhere), 0.15);
+}
+
 TEST_F(PoseBeliefTest, NoRivalTakesOverFromAMonitorThatNeverDoubts) {
   LocalizerOptions options;
+  options.recovery.continued = 0.0;  // nor where a scan does not go on
   options.recovery.sure = 1000.0;
   options.recovery.doubt = 0.0;
   options.recovery.refuted = 2.0;  // not even by beams through walls

@@ -8,8 +8,11 @@
 namespace cairn {
 namespace {
 
-constexpr int kDoubtfulScans = 3;   // for which one scan raises doubt
-constexpr double kBestOfFew = 0.3;  // probability of one of two or three places that fit alike
+constexpr int kDoubtfulScans = 3;       // for which one scan raises doubt
+constexpr double kSearchAgain_s = 0.5;  // where one scan after the other does not go on
+constexpr double kHardlyRight = 0.1;    // probability at which a pose is doubted, however it was reached
+constexpr double kSettled = 0.99;       // share of the believed place at which no other counts any more
+constexpr double kBestOfFew = 0.3;      // probability of one of two or three places that fit alike
 // Spread of a rival that takes over.
 constexpr double kSpread_m = 0.1, kSpread_rad = 0.05;
 
@@ -81,6 +84,12 @@ void RecoveryOptions::visit(OptionVisitor& v) {
   v.number({"refuted_accept", "these log-odds"}, refuted_accept, {0.0, 1e3});
   v.number({"refuted_share", "and this probability are enough"}, refuted_share, {0.0, 1.0});
   v.number({"hopeless", "or with these log-odds, if it is one of two or three"}, hopeless, {0.0, 1e3});
+  v.number({"continued", "less than this share of a scan goes on from the last one: carried away; 0: never"},
+           continued, {0.0, 1.0});
+  v.number({"carried", "prior of being elsewhere then, shared by what is found"}, carried, {1e-9, 0.999});
+  v.number({"anchor_m", "after so much way without such a scan places elsewhere are given up, metres"},
+           anchor_m, {0.0, 1e6});
+  v.number({"settle_m", "after so much where another place has taken over, metres"}, settle_m, {0.0, 1e6});
   v.number({"most_million_cells", "no recovery on a larger map: a search needs about 60 bytes per cell"},
            most_million_cells, {0.0, 1e4});
 }
@@ -99,11 +108,56 @@ bool Recovery::surprising(double explained_before, double explained_now) const {
   return options_.surprise > 0.0 && explained_now < explained_before - options_.surprise;
 }
 
+Link Recovery::link(const std::optional<double>& continued) const {
+  if (!continued || options_.continued <= 0.0) return Link::kUnknown;
+  return *continued < options_.continued ? Link::kBroken : Link::kHolds;
+}
+
+RecoveryMemory Recovery::begin(bool anywhere) const {
+  RecoveryMemory memory;
+  if (!anywhere && options_.continued > 0.0) memory.proven_m = options_.anchor_m;
+  return memory;
+}
+
+void Recovery::note(RecoveryMemory& memory, Link link, Time now) const {
+  if (link == Link::kHolds || (link == Link::kUnknown && memory.carried)) return;
+  memory.proven_m = 0.0;
+  if (link == Link::kUnknown) return;
+  if (!memory.carried) {
+    memory.rivals.clear();
+    memory.settled_at_m = options_.anchor_m;
+  }
+  if (to_seconds(now - memory.searched_at) > kSearchAgain_s) memory.searched = false;
+  memory.carried = true;
+  memory.wait_s = 0.0;
+  memory.glimpses.clear();
+}
+
+bool Recovery::anchored(const RecoveryMemory& memory) const {
+  return !memory.carried && memory.proven_m >= options_.anchor_m;
+}
+
+void Recovery::unsettle(RecoveryMemory& memory) {
+  memory.proven_m = 0.0;
+  memory.carried = false;
+}
+
+void Recovery::settle(RecoveryMemory& memory, double right, Standing standing) const {
+  if (right < kHardlyRight || standing == Standing::kRefuted || memory.doubted_m >= options_.anchor_m)
+    memory.proven_m = 0.0;
+  const bool alone = Rivals::believed_share(memory.rivals) >= kSettled;
+  if (memory.proven_m < (memory.carried ? memory.settled_at_m : options_.anchor_m) || !alone) return;
+  memory.carried = false;
+  memory.rivals.clear();
+}
+
 void Recovery::carry(RecoveryMemory& memory, const Pose2& T_before_after, double since_s) {
   const Pose2 T_now_before = inverse(T_before_after);
   for (Glimpse& glimpse : memory.glimpses) glimpse.T_now_then = T_now_before * glimpse.T_now_then;
   Rivals::carry(memory.rivals, T_before_after, since_s);
   memory.moved_m += way(T_before_after);
+  memory.proven_m += way(T_before_after);
+  memory.doubted_m += way(T_before_after);
 }
 
 void Recovery::observe(RecoveryMemory& memory, StreamId stream, const StreamModel& model,
@@ -150,8 +204,9 @@ void Recovery::search(RecoveryMemory& memory, const StreamModel& model, Time now
   ++memory.searches;
   memory.wait_s = std::min(2.0 * std::max(memory.wait_s, options_.every_s), options_.at_most_every_s);
   const std::vector<double> gains = gains_of(*found, memory.glimpses, model, believed, rivals_, options_);
-  const double before = std::log(options_.prior / (1.0 - options_.prior)) -
-                        std::log(static_cast<double>(std::max<std::size_t>(1, gains.size())));
+  const double prior = memory.carried ? options_.carried : options_.prior;
+  const double before =
+      std::log(prior / (1.0 - prior)) - std::log(static_cast<double>(std::max<std::size_t>(1, gains.size())));
   for (std::size_t i = 0; i < gains.size(); ++i) {
     rivals_.add(memory.rivals, {(*found)[i].T_map_base, before + gains[i], 0, 0.0, ++memory.last_id},
                 believed);
@@ -166,7 +221,7 @@ Eigen::Matrix3d Recovery::spread() {
 bool Recovery::has_won(const RecoveryMemory& memory, const Rival& rival, Standing standing) const {
   const bool refuted = standing == Standing::kRefuted;
   const double accept = (refuted ? options_.refuted_accept : options_.accept) +
-                        (standing == Standing::kTrusted ? options_.sure : 0.0);
+                        (standing == Standing::kTrusted && !memory.carried ? options_.sure : 0.0);
   if (rival.log_odds < accept) return false;
   const double probability = Rivals::share(memory.rivals, rival.log_odds);
   const bool best_of_few = rival.log_odds >= options_.hopeless && probability >= kBestOfFew;
@@ -186,6 +241,9 @@ bool Recovery::take_over(RecoveryMemory& memory, std::span<const Hypothesis> pla
   }
   begin_at(winner.T_map_base, ++memory.takeovers, filter);
   memory.wait_s = 0.0;
+  memory.proven_m = 0.0;
+  memory.settled_at_m = options_.settle_m;
+  memory.carried = options_.continued > 0.0;
   return true;
 }
 

@@ -43,6 +43,12 @@ struct RecoveryOptions {
   double refuted_accept = 1.0;     ///< these log-odds ...
   double refuted_share = 0.6;      ///< ... and this probability are enough, at once. Against a belief that
   double hopeless = 10.0;          ///< has lost by so much that the best of two or three is better,
+  /// Where a scan does not go on where the one before left off (less than this share of it does), the robot
+  /// may have been carried away. 0: this is not looked at.
+  double continued = 0.75;
+  double carried = 0.5;   ///< prior of being elsewhere then, shared by what is found
+  double anchor_m = 2.0;  ///< after so much way on which all scans went on, places elsewhere are given up;
+  double settle_m = 4.0;  ///< after so much where a rival has taken over
   /// The first search prepares the map, for about 60 bytes per cell: there is no recovery on a larger one,
   /// and a warning says so.
   double most_million_cells = 16.0;
@@ -55,6 +61,13 @@ enum class Standing {
   kTrusted,   ///< the monitor has no doubt: people in the way may be all that is wrong
   kDoubtful,  ///< it has
   kRefuted,   ///< the last scan alone is impossible there: its beams would have passed through walls
+};
+
+/// Whether a scan goes on where the one before left off.
+enum class Link {
+  kUnknown,  ///< nothing to compare it with
+  kHolds,
+  kBroken,  ///< the robot may have been carried away
 };
 
 /// All that changes in a recovery.
@@ -70,6 +83,10 @@ struct RecoveryMemory {
   std::uint32_t last_id = 0;  ///< of the rivals
   int doubtful = 0;           ///< scans for which the doubt goes on
   double moved_m = 0.0;       ///< since the last scan that rivals were weighed by; 1 rad counts as 1 m
+  double proven_m = 0.0;      ///< way since anything last spoke against having tracked the robot; likewise
+  double doubted_m = 0.0;     ///< way on which the pose has been doubtful without a break; likewise
+  double settled_at_m = 0.0;  ///< `proven_m` that settles where the robot is
+  bool carried = false;       ///< a link broke, and it is not settled where the robot is
 };
 
 /// Brings a robot that was carried away back. While the pose is in doubt, global localization from the scans
@@ -95,6 +112,21 @@ class Recovery {
   Standing standing(double right, const std::optional<BeamShares>& seen) const;
   /// Whether a scan is worth an update though the robot has not moved: it is not what was seen here before.
   bool surprising(double explained_before, double explained_now) const;
+
+  /// @param continued share of a scan that goes on where the one before left off, if that can be told
+  Link link(const std::optional<double>& continued) const;
+  /// What it begins with. @param anywhere false: the start pose was given
+  RecoveryMemory begin(bool anywhere) const;
+  /// Takes note of how a scan goes on. Where it does not, what was seen and found before is of another place.
+  void note(RecoveryMemory& memory, Link link, Time now) const;
+  /// Whether the robot has been tracked to where it is believed, scan by scan: then it cannot be far away,
+  /// however much better other places explain what is seen (decision 99).
+  bool anchored(const RecoveryMemory& memory) const;
+  /// The belief after a measurement: what it has proven, and whether that settles where the robot is.
+  void settle(RecoveryMemory& memory, double right, Standing standing) const;
+
+  /// Nothing is proven: something else tells where the robot may be.
+  static void unsettle(RecoveryMemory& memory);
 
   /// The robot has moved.
   static void carry(RecoveryMemory& memory, const Pose2& T_before_after, double since_s);

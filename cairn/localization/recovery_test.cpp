@@ -236,6 +236,89 @@ TEST_F(RecoveryTest, ScansNearToEachOtherAreNotJoinedTwice) {
   EXPECT_LT(memory_.glimpses.front().T_now_then.x, -0.8);
 }
 
+// Two corridors look alike on the map: only that the scans do not go on tells that the robot is in the other
+// one.
+TEST_F(RecoveryTest, AScanThatDoesNotGoOnRaisesDoubtAndASearch) {
+  const FoundElsewhere model(1.0);
+  memory_.rivals = {{{5, 0, 0}, 3.0}};
+  recovery_.note(memory_, recovery_.link(0.9), at(1.0));
+  EXPECT_FALSE(memory_.carried);
+  recovery_.note(memory_, recovery_.link(0.5), at(1.0));
+  EXPECT_TRUE(memory_.carried);
+  EXPECT_TRUE(memory_.rivals.empty()) << "they were places before it";
+  observe(model, 1.0, memory_.carried);
+  recovery_.search(memory_, model, at(1.0), {});
+  ASSERT_EQ(memory_.rivals.size(), 1u);
+  EXPECT_NEAR(memory_.rivals[0].log_odds, 1.0, 1e-9) << "even odds, and what the scan fits better";
+}
+
+TEST_F(RecoveryTest, AfterSuchAScanTheMonitorIsNotTrusted) {
+  memory_.rivals = {{{5, 0, 0}, 4.0}};
+  EXPECT_FALSE(recovery_.take_over(memory_, kBelieved, Standing::kTrusted, filter_));
+  memory_.carried = true;
+  EXPECT_TRUE(recovery_.take_over(memory_, kBelieved, Standing::kTrusted, filter_));
+}
+
+TEST_F(RecoveryTest, ScansThatGoOnSettleWhereTheRobotIs) {
+  recovery_.note(memory_, Link::kBroken, at(1.0));
+  const auto drive = [&](double way_m) {
+    Recovery::carry(memory_, {way_m, 0.0, 0.0}, 1.0);
+    memory_.doubted_m = 0.0;
+    recovery_.settle(memory_, 0.99, Standing::kTrusted);
+  };
+  drive(1.9);
+  EXPECT_TRUE(memory_.carried);
+  recovery_.note(memory_, Link::kBroken, at(2.0));  // once more: it begins anew
+  drive(1.9);
+  EXPECT_TRUE(memory_.carried);
+  memory_.rivals = {{{5, 0, 0}, -2.0}};
+  drive(0.2);
+  EXPECT_TRUE(memory_.carried) << "one of eight for the rival";
+  memory_.rivals[0].log_odds = -6.0;
+  drive(0.0);
+  EXPECT_FALSE(memory_.carried);
+  EXPECT_TRUE(memory_.rivals.empty());
+  EXPECT_TRUE(recovery_.anchored(memory_));
+}
+
+TEST_F(RecoveryTest, APlaceThatHasTakenOverIsSettledLater) {
+  memory_.rivals = {{{5, 0, 0}, 12.0}};
+  ASSERT_TRUE(recovery_.take_over(memory_, kBelieved, Standing::kDoubtful, filter_));
+  memory_.rivals.clear();
+  for (int metre = 1; metre <= 4; ++metre) {
+    EXPECT_TRUE(memory_.carried) << metre;
+    Recovery::carry(memory_, {1.0, 0.0, 0.0}, 1.0);
+    memory_.doubted_m = 0.0;
+    recovery_.settle(memory_, 0.99, Standing::kTrusted);
+  }
+  EXPECT_FALSE(memory_.carried);
+}
+
+TEST_F(RecoveryTest, AnAnchorIsLostToWhatSpeaksAgainstThePose) {
+  const auto anchored_after = [&](Link link, double right, Standing standing, double doubted_m) {
+    memory_ = recovery_.begin(false);
+    memory_.doubted_m = doubted_m;
+    recovery_.note(memory_, link, at(1.0));
+    recovery_.settle(memory_, right, standing);
+    return recovery_.anchored(memory_);
+  };
+  EXPECT_TRUE(anchored_after(Link::kHolds, 0.5, Standing::kDoubtful, 1.5)) << "the map is wrong here";
+  EXPECT_FALSE(anchored_after(Link::kUnknown, 0.5, Standing::kDoubtful, 1.5)) << "scans too far apart";
+  EXPECT_FALSE(anchored_after(Link::kBroken, 0.5, Standing::kDoubtful, 1.5));
+  EXPECT_FALSE(anchored_after(Link::kHolds, 0.05, Standing::kDoubtful, 1.5));
+  EXPECT_FALSE(anchored_after(Link::kHolds, 0.5, Standing::kRefuted, 1.5));
+  EXPECT_FALSE(anchored_after(Link::kHolds, 0.5, Standing::kDoubtful, 2.5)) << "for too long";
+  EXPECT_FALSE(recovery_.anchored(recovery_.begin(true))) << "a start anywhere";
+}
+
+TEST_F(RecoveryTest, WithoutLinksNothingIsAnchored) {
+  RecoveryOptions options;
+  options.continued = 0.0;
+  const Recovery recovery(options, 1);
+  EXPECT_EQ(recovery.link(0.1), Link::kUnknown);
+  EXPECT_FALSE(recovery.anchored(recovery.begin(false)));
+}
+
 TEST_F(RecoveryTest, TheSameMeasurementsBringTheSamePosesIn) {
   EXPECT_TRUE(after_one_scan(2.9));
   const std::vector<Pose2> first = filter_.states_;

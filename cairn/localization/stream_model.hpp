@@ -74,6 +74,17 @@ class StreamModel {
     return std::nullopt;
   }
 
+  /// Whether continued_share() may ever tell.
+  virtual bool can_continue() const { return false; }
+
+  /// Share of a measurement that is where the one before leads to expect it, whatever the map says. nullopt:
+  /// they are too far apart. @param T_before_now motion of the base in between
+  virtual std::optional<double> continued_share(const Event::Payload& /*before*/,
+                                                const Event::Payload& /*now*/,
+                                                const Pose2& /*T_before_now*/) const {
+    return std::nullopt;
+  }
+
   /// Evaluated parts of the measurement, weighted by what one of them costs (UpdateWork::beams).
   virtual double beams(const Event::Payload& z) const = 0;
 };

@@ -1,0 +1,114 @@
+#include "cairn/models/sensor/scan_continuity.hpp"
+
+#include "cairn/core/angle.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace cairn {
+namespace {
+
+double squared(const Point2& p) { return p.x * p.x + p.y * p.y; }
+
+// Of the line from a to b to the origin.
+double squared_distance_to_line(const Point2& a, const Point2& b) {
+  const Point2 along{b.x - a.x, b.y - a.y};
+  const double u = std::clamp(-(a.x * along.x + a.y * along.y) / squared(along), 0.0, 1.0);
+  return squared({a.x + u * along.x, a.y + u * along.y});
+}
+
+/// What a scan saw, beam by beam: end points, joined where they are neighbours.
+class Outline {
+ public:
+  Outline(const LaserScan& scan, const BeamLimits& limits, double gap_m)
+      : scan_(scan),
+        limits_(limits),
+        step_rad_(std::abs(scan.angle_increment_rad)),
+        count_(static_cast<std::int64_t>(scan.ranges_m.size())),
+        round_(step_rad_ * static_cast<double>(count_) > kTwoPi - 0.5 * step_rad_),
+        gap2_(gap_m * gap_m) {}
+
+  enum class Look { kOnIt, kOffIt, kOutOfView };
+
+  /// Whether a point in the sensor's frame lies on it.
+  Look look(const Point2& p, double tolerance_m) const {
+    if (step_rad_ == 0.0) return Look::kOutOfView;
+    const double range = std::hypot(p.x, p.y);
+    const double place = place_of(std::atan2(p.y, p.x));
+    if (!round_ && place > static_cast<double>(count_ - 1)) return Look::kOutOfView;
+    const auto middle = static_cast<std::int64_t>(place);
+    const double reach =
+        range > tolerance_m ? std::asin(tolerance_m / range) / step_rad_ : 0.5 * static_cast<double>(count_);
+    const auto most = std::min<std::int64_t>(static_cast<std::int64_t>(reach) + 1, count_ / 2);
+    bool seen = false;
+    for (std::int64_t k = 0; k <= most; ++k) {  // the nearest first: most points lie there
+      if (near(middle + k, place, range, tolerance_m, seen) ||
+          near(middle - k, place, range, tolerance_m, seen))
+        return Look::kOnIt;
+    }
+    return seen ? Look::kOffIt : Look::kOutOfView;
+  }
+
+ private:
+  // The beam, as a fraction, that looks at a bearing.
+  double place_of(double bearing) const {
+    const double turned = (bearing - scan_.angle_min_rad) * (scan_.angle_increment_rad < 0.0 ? -1.0 : 1.0);
+    return (turned - kTwoPi * std::floor(turned / kTwoPi)) / step_rad_;
+  }
+
+  // End point of a beam, seen from the point at `range` in the direction `place`, whose axis points outwards.
+  std::optional<Point2> end(std::int64_t beam, double place, double range) const {
+    if (round_) beam = (beam % count_ + count_) % count_;
+    if (beam < 0 || beam >= count_) return std::nullopt;
+    const float r = scan_.ranges_m[static_cast<std::size_t>(beam)];
+    if (!scan_.is_valid_range(r) || r < limits_.min_range_m || r >= limits_.max_range_m) return std::nullopt;
+    const double angle = (static_cast<double>(beam) - place) * step_rad_;
+    return Point2{r * std::cos(angle) - range, r * std::sin(angle)};
+  }
+
+  // Whether the end point of a beam, or the line to the next one, passes through the point.
+  bool near(std::int64_t beam, double place, double range, double tolerance_m, bool& seen) const {
+    const auto here = end(beam, place, range);
+    if (!here) return false;
+    seen = true;
+    const double tolerance2 = tolerance_m * tolerance_m;
+    if (squared(*here) < tolerance2) return true;
+    const auto next = end(beam + 1, place, range);
+    if (!next) return false;
+    const double apart2 = squared({next->x - here->x, next->y - here->y});
+    return apart2 > 0.0 && apart2 < gap2_ && squared_distance_to_line(*here, *next) < tolerance2;
+  }
+
+  const LaserScan& scan_;
+  const BeamLimits& limits_;
+  double step_rad_;
+  std::int64_t count_;
+  bool round_;  // looks all around: the last beam is beside the first
+  double gap2_;
+};
+
+}  // namespace
+
+std::optional<double> ScanContinuity::share(const LaserScan& before, const LaserScan& now,
+                                            const Pose2& T_before_now) const {
+  const double way_m = std::hypot(T_before_now.x, T_before_now.y);
+  const double turn_rad = std::abs(normalize_angle(T_before_now.theta));
+  if (!(way_m <= options_.most_m) || !(turn_rad <= options_.most_rad)) return std::nullopt;
+  const Pose2 T_sensor_base = inverse(T_base_sensor_) * T_before_now;
+  const Outline outline(before, limits_, options_.gap_m);
+  int in_view = 0, on_it = 0;
+  for (const Point2& end : select_end_points(now, T_base_sensor_, limits_, options_.beams)) {
+    const Point2 p = T_sensor_base * end;
+    const double range_m = std::hypot(p.x, p.y);
+    const double tolerance_m = options_.tolerance_m + options_.per_way * way_m +
+                               (options_.per_range + options_.per_turn * turn_rad) * range_m;
+    const Outline::Look look = outline.look(p, tolerance_m);
+    in_view += look != Outline::Look::kOutOfView;
+    on_it += look == Outline::Look::kOnIt;
+  }
+  if (in_view < options_.least_beams) return std::nullopt;
+  return static_cast<double>(on_it) / in_view;
+}
+
+}  // namespace cairn

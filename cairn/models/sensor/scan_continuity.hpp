@@ -1,0 +1,50 @@
+#pragma once
+
+#include "cairn/core/pose2.hpp"
+#include "cairn/models/sensor/beam_selection.hpp"
+#include "cairn/sensing/laser_scan.hpp"
+
+#include <optional>
+
+namespace cairn {
+
+struct ScanContinuityOptions {
+  int beams = 60;        ///< of the later scan that are looked at, spread evenly over the valid ones
+  int least_beams = 15;  ///< fewer in view of the earlier one say nothing
+  /// How far an end point may be from the outline that was seen before: so much, and for each metre of its
+  /// range, each metre driven, and each radian turned per metre of range so much more. Turns are the worst:
+  /// scans and odometry are seldom stamped alike.
+  double tolerance_m = 0.15;
+  double per_range = 0.02;
+  double per_way = 0.2;
+  double per_turn = 0.3;
+  double gap_m = 0.5;     ///< neighbouring end points that are nearer than this are joined by a line
+  double most_m = 0.5;    ///< scans that are farther apart than this, or turned by more, are not compared:
+  double most_rad = 0.5;  ///< corners hide too much
+};
+
+/// Whether a robot has been carried away between two scans: then the later one does not go on where the
+/// odometry says. No map is needed, so that it tells two corridors apart that look alike on the map (there,
+/// widths and angles are alike, doors and the place between the walls are not), and a map that is wrong does
+/// not spoil it.
+///
+/// Of consecutive scans of six recordings, 0 to 0.6 % have a share below 0.75; of pairs from different places
+/// of the same recording 94 to 100 % do (docs/recovery.md). A robot that is carried slowly while its scanner
+/// runs gives scans that do go on. Immutable.
+class ScanContinuity {
+ public:
+  ScanContinuity(const Pose2& T_base_sensor, const BeamLimits& limits,
+                 const ScanContinuityOptions& options = {})
+      : T_base_sensor_(T_base_sensor), limits_(limits), options_(options) {}
+
+  /// Share of the later scan's end points in view of the earlier one that lie on what that one saw: 0..1.
+  /// nullopt: they are too far apart, or too few. @param T_before_now motion of the base, by odometry
+  std::optional<double> share(const LaserScan& before, const LaserScan& now, const Pose2& T_before_now) const;
+
+ private:
+  Pose2 T_base_sensor_;
+  BeamLimits limits_;
+  ScanContinuityOptions options_;
+};
+
+}  // namespace cairn
