@@ -19,16 +19,16 @@ class Told final : public StreamModel {
   double beams(const Event::Payload&) const override { return 1.0; }
   bool informs(const Event::Payload&) const override { return true; }
   std::vector<LocatedPose> locate(std::span<const Glimpse> way, std::span<const Pose2> asked) const override {
-    way_.assign(way.begin(), way.end());
-    asked_.assign(asked.begin(), asked.end());
-    ++searches_;
-    return found_;
+    seen.assign(way.begin(), way.end());
+    asked_for.assign(asked.begin(), asked.end());
+    ++searches;
+    return found;
   }
 
-  std::vector<LocatedPose> found_ = {{.T_map_base = kHere, .weight = 1.0}};
-  mutable std::vector<Glimpse> way_;
-  mutable std::vector<Pose2> asked_;
-  mutable int searches_ = 0;
+  std::vector<LocatedPose> found = {{.T_map_base = kHere, .weight = 1.0}};
+  mutable std::vector<Glimpse> seen;
+  mutable std::vector<Pose2> asked_for;
+  mutable int searches = 0;
 };
 
 class GlobalSearchTest : public testing::Test {
@@ -56,10 +56,10 @@ TEST_F(GlobalSearchTest, SearchesAgainAfterEveryFewLooksAndLeavesTheParticlesAlo
   search_.begin(memory_, 0, model_, {});
   EXPECT_EQ(drive(options_.search_every - 1), 0);
   EXPECT_EQ(drive(1), 1);
-  EXPECT_EQ(model_.way_.size(), static_cast<std::size_t>(options_.search_every) + 1);
-  EXPECT_NEAR(model_.way_.front().T_now_then.x, -0.6 * options_.search_every, 1e-12);
-  ASSERT_EQ(model_.asked_.size(), 2U) << "of the belief, and of the search before";
-  EXPECT_EQ(model_.asked_[0].x, kThere.x);
+  EXPECT_EQ(model_.seen.size(), static_cast<std::size_t>(options_.search_every) + 1);
+  EXPECT_NEAR(model_.seen.front().T_now_then.x, -0.6 * options_.search_every, 1e-12);
+  ASSERT_EQ(model_.asked_for.size(), 2U) << "of the belief, and of the search before";
+  EXPECT_EQ(model_.asked_for[0].x, kThere.x);
   EXPECT_TRUE(filter_.states_.empty());
 }
 
@@ -69,9 +69,9 @@ TEST_F(GlobalSearchTest, EndsWhenSearchAndBeliefAgreeAfterEnoughLooks) {
   EXPECT_TRUE(memory_.searching) << "too soon";
   drive(20);
   EXPECT_FALSE(memory_.searching);
-  const int searches = model_.searches_;
+  const int searches = model_.searches;
   drive(20);
-  EXPECT_EQ(model_.searches_, searches);
+  EXPECT_EQ(model_.searches, searches);
 }
 
 TEST_F(GlobalSearchTest, GoesOnWhileTheBeliefIsElsewhereOrWideOrThereAreOtherPlaces) {
@@ -84,15 +84,15 @@ TEST_F(GlobalSearchTest, GoesOnWhileTheBeliefIsElsewhereOrWideOrThereAreOtherPla
   drive(20);
   EXPECT_TRUE(memory_.searching);
   filter_.compact_ = true;
-  model_.found_ = {{.T_map_base = kHere, .weight = 0.9}, {.T_map_base = kThere, .weight = 0.1}};
+  model_.found = {{.T_map_base = kHere, .weight = 0.9}, {.T_map_base = kThere, .weight = 0.1}};
   drive(20);
   EXPECT_TRUE(memory_.searching);
 }
 
 // Along a wall no look tells a place from the one a metre on.
 TEST_F(GlobalSearchTest, NeighboursOfThePlaceSpeakForIt) {
-  model_.found_ = {{.T_map_base = kHere, .weight = 0.6},
-                   {.T_map_base = kHere * Pose2{1.5, 0.0, 0.0}, .weight = 0.4}};
+  model_.found = {{.T_map_base = kHere, .weight = 0.6},
+                  {.T_map_base = kHere * Pose2{1.5, 0.0, 0.0}, .weight = 0.4}};
   search_.begin(memory_, 0, model_, {});
   drive(20);
   EXPECT_FALSE(memory_.searching);
@@ -118,12 +118,12 @@ TEST_F(GlobalSearchTest, GoesOnWithAnotherStreamWhereItsOwnFallsSilent) {
   };
   search_.begin(memory_, 0, model_, {});
   see(40, 1);
-  EXPECT_EQ(model_.searches_, 1) << "it may be a pause";
+  EXPECT_EQ(model_.searches, 1) << "it may be a pause";
   see(1, 0);
   see(40, 1);
-  EXPECT_EQ(model_.searches_, 1);
+  EXPECT_EQ(model_.searches, 1);
   see(40, 1);
-  EXPECT_GT(model_.searches_, 1);
+  EXPECT_GT(model_.searches, 1);
   EXPECT_FALSE(memory_.searching) << "confirmed by the other one";
 }
 
@@ -144,7 +144,7 @@ TEST_F(GlobalSearchTest, WhatTheSearchHoldsPossibleStaysAPlaceOfTheBelief) {
   const std::vector<PoseHypothesis> particles{{1.0, kThere, Eigen::Matrix3d::Identity(), 100}};
   ASSERT_EQ(GlobalSearch::with_found(memory_, particles).size(), 1U);
   EXPECT_EQ(GlobalSearch::with_found(memory_, particles)[0].weight, 1.0) << "nothing is searched";
-  model_.found_ = {{.T_map_base = kHere, .weight = 0.8}, {.T_map_base = kThere, .weight = 0.2}};
+  model_.found = {{.T_map_base = kHere, .weight = 0.8}, {.T_map_base = kThere, .weight = 0.2}};
   search_.begin(memory_, 0, model_, {});
   const auto both = GlobalSearch::with_found(memory_, particles);
   ASSERT_EQ(both.size(), 2U);
@@ -169,7 +169,7 @@ TEST_F(GlobalSearchTest, ClaimsLittleBeforeItIsConfirmed) {
 }
 
 TEST_F(GlobalSearchTest, WithoutASensorToSearchWithNothingIsSearched) {
-  model_.found_.clear();
+  model_.found.clear();
   EXPECT_TRUE(search_.begin(memory_, 0, model_, {}).empty());
   EXPECT_FALSE(memory_.searching);
   EXPECT_EQ(drive(50), 0);

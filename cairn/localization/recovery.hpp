@@ -32,7 +32,7 @@ struct RecoveryOptions {
   double effective_beams = 12.0;  ///< as laser.effective_beams, for the first of the joined scans
   double further_beams = 5.0;     ///< likewise for each of the others
   double crowd_m = 1.0;  ///< where most beams end nearer, a second search takes those beyond; 0: never
-  double millions_of_points = 30;  ///< a search looks up at most this many million end points
+  double millions_of_points = 10;  ///< a search looks up at most this many million end points
   double rival_beams = 10.0;       ///< as laser.effective_beams, for a scan that rivals are weighed by
   double rival_most = 10.0;        ///< a scan never speaks more than this against a place, nat
   double accept = 4.0;             ///< log-odds at which a rival takes over

@@ -23,8 +23,8 @@ class FoundElsewhere final : public StreamModel {
   double beams(const Event::Payload&) const override { return 1.0; }
   bool informs(const Event::Payload&) const override { return true; }
   std::optional<std::vector<LocatedPose>> search(std::span<const Glimpse> glimpses) const override {
-    ++searches_;
-    glimpses_.assign(glimpses.begin(), glimpses.end());
+    ++searches;
+    searched_with.assign(glimpses.begin(), glimpses.end());
     return std::vector<LocatedPose>{{kPlace, 1e-4 * Eigen::Matrix3d::Identity(), 1.0, 0.0}};
   }
   bool follow(const Event::Payload&, std::span<Pose2> places, std::span<double> fits) const override {
@@ -36,8 +36,8 @@ class FoundElsewhere final : public StreamModel {
   static constexpr double kBeams = 2.0;
 
   static constexpr Pose2 kPlace{7.0, 3.0, 1.0};
-  mutable int searches_ = 0;
-  mutable std::vector<Glimpse> glimpses_;
+  mutable int searches = 0;
+  mutable std::vector<Glimpse> searched_with;
 
  private:
   double gain_;
@@ -197,7 +197,7 @@ TEST_F(RecoveryTest, WhoIsNotInDoubtIsNotLookedFor) {
   const FoundElsewhere model(50.0);
   observe(model, 1.0, false);
   recovery_.search(memory_, model, at(1.0), {});
-  EXPECT_EQ(model.searches_, 0);
+  EXPECT_EQ(model.searches, 0);
 }
 
 TEST_F(RecoveryTest, SearchesBecomeRareWhileTheDoubtLasts) {
@@ -206,8 +206,8 @@ TEST_F(RecoveryTest, SearchesBecomeRareWhileTheDoubtLasts) {
     observe(model, 0.1 * i, true);
     recovery_.search(memory_, model, at(0.1 * i), {});
   }
-  EXPECT_GE(model.searches_, 15);
-  EXPECT_LE(model.searches_, 16);  // every 4 s: the first wait is doubled at once
+  EXPECT_GE(model.searches, 15);
+  EXPECT_LE(model.searches, 16);  // every 4 s: the first wait is doubled at once
 }
 
 TEST_F(RecoveryTest, TheScansOfTheDoubtAreJoinedAsTheRobotMoved) {
@@ -219,11 +219,11 @@ TEST_F(RecoveryTest, TheScansOfTheDoubtAreJoinedAsTheRobotMoved) {
     observe(model, i, true);
   }
   recovery_.search(memory_, model, at(4.0), {});
-  ASSERT_EQ(model.glimpses_.size(), 4u);
+  ASSERT_EQ(model.searched_with.size(), 4u);
   const Pose2 expected = inverse(step * step * step);
-  EXPECT_LT(distance(model.glimpses_[0].T_now_then, expected), 1e-9);
-  EXPECT_NEAR(model.glimpses_[0].T_now_then.theta, expected.theta, 1e-9);
-  EXPECT_EQ(model.glimpses_[3].T_now_then.x, 0.0);
+  EXPECT_LT(distance(model.searched_with[0].T_now_then, expected), 1e-9);
+  EXPECT_NEAR(model.searched_with[0].T_now_then.theta, expected.theta, 1e-9);
+  EXPECT_EQ(model.searched_with[3].T_now_then.x, 0.0);
 }
 
 TEST_F(RecoveryTest, ScansNearToEachOtherAreNotJoinedTwice) {
