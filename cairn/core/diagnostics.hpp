@@ -19,8 +19,9 @@ class Diagnostics {
   /// Counts one occurrence of `kind` ("malformed line", "time reversal", ...) and keeps the first examples.
   void warn(const std::string& kind, const std::string& where, const std::string& what);
 
-  /// Counts `n` further occurrences without an example.
-  void count(const std::string& kind, std::int64_t n = 1) { counts_[kind] += n; }
+  /// Counts `n` further occurrences without an example. Damaged files announce any number: counts stop at the
+  /// largest one.
+  void count(const std::string& kind, std::uint64_t n = 1);
 
   /// Adds what another one has counted.
   void add(const Diagnostics& other);

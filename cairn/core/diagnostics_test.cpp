@@ -1,5 +1,7 @@
 #include "cairn/core/diagnostics.hpp"
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
 namespace cairn {
@@ -28,6 +30,18 @@ TEST(Diagnostics, CountsWithoutExamples) {
   EXPECT_FALSE(diagnostics.empty());
   EXPECT_EQ(diagnostics.counts().at("duplicate stamp"), 8);
   EXPECT_TRUE(diagnostics.examples().empty());
+}
+
+// A damaged file announces any number of lost bytes, more than once.
+TEST(Diagnostics, CountsStopAtTheLargestNumber) {
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+  Diagnostics diagnostics, other;
+  diagnostics.count("lost bytes", 997);
+  diagnostics.count("lost bytes", std::numeric_limits<std::uint64_t>::max());
+  EXPECT_EQ(diagnostics.counts().at("lost bytes"), kMost);
+  other.count("lost bytes", 5);
+  other.add(diagnostics);
+  EXPECT_EQ(other.counts().at("lost bytes"), kMost);
 }
 
 }  // namespace

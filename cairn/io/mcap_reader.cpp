@@ -45,7 +45,7 @@ class FileReader {
   bool go_on_after_damage();
 
   void lose(std::uint64_t bytes) {
-    if (bytes > 0) diagnostics_.count("lost bytes", static_cast<std::int64_t>(bytes));
+    if (bytes > 0) diagnostics_.count("lost bytes", bytes);
   }
   void warn(const char* kind, std::uint64_t offset, const std::string& what) {
     diagnostics_.warn(kind, name_ + " (byte offset " + std::to_string(offset) + ")", what);
@@ -253,7 +253,7 @@ bool FileReader::go_on_after_damage() {
 
 void FileReader::report_losses() {
   if (announced_messages_.value_or(0) > messages_) {
-    diagnostics_.count("lost messages", static_cast<std::int64_t>(*announced_messages_ - messages_));
+    diagnostics_.count("lost messages", *announced_messages_ - messages_);
   }
   if (!is_closed_ && !is_cut_) {
     warn("unfinished", stream_.offset(), "the recording was not closed; read up to here");

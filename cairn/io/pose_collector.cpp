@@ -63,7 +63,7 @@ Trajectory PoseCollector::finish(const LineReader& lines, Diagnostics& diagnosti
     diagnostics.warn("last line has no end", lines.where(), "the file may have been cut short");
   }
   const std::size_t dropped = sort_by_stamp(poses_);
-  if (dropped > 0) diagnostics.count("duplicate stamp", static_cast<std::int64_t>(dropped));
+  if (dropped > 0) diagnostics.count("duplicate stamp", dropped);
   if (implausibly_fast(poses_)) {
     diagnostics.warn("implausible units", lines.name(),
                      "it moves faster than 10 m/s; metres and seconds are expected");

@@ -82,7 +82,7 @@ class BagReader {
   std::string where(std::uint64_t offset) const;
   void lose_bytes(std::uint64_t bytes) { count("lost bytes", bytes); }
   void count(const char* kind, std::uint64_t n) {
-    if (n > 0) log_.diagnostics().count(kind, static_cast<std::int64_t>(n));
+    if (n > 0) log_.diagnostics().count(kind, n);
   }
   void warn(const char* kind, std::uint64_t offset, const std::string& what) {
     log_.diagnostics().warn(kind, where(offset), what);

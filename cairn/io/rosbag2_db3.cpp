@@ -129,7 +129,7 @@ void DatabaseReader::warn_if_cut() {
   log_.diagnostics().warn(
       "truncated", name_,
       "the database is cut short: " + std::to_string(announced - bytes_.size()) + " bytes are missing");
-  log_.diagnostics().count("lost bytes", static_cast<std::int64_t>(announced - bytes_.size()));
+  log_.diagnostics().count("lost bytes", announced - bytes_.size());
 }
 
 Statement DatabaseReader::prepare(const char* sql) {

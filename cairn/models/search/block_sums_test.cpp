@@ -17,7 +17,7 @@ TEST(BlockSums, AreThoseOfEachPlace) {
   const RandomStream random(1, RandomPurpose::kTest, 0);
   for (std::size_t i = 0; i < bytes.size(); ++i)
     bytes[i] =
-        i % 5 == 0 ? 255 : static_cast<std::uint8_t>(256.0 * random.uniform(static_cast<std::uint32_t>(i)));
+        static_cast<std::uint8_t>(i % 5 == 0 ? 255.0 : 256.0 * random.uniform(static_cast<std::uint32_t>(i)));
   BlockSums sums;
   BlockSums::Sums expected{};
   for (std::size_t n = 0; n < 900; ++n) {
