@@ -105,6 +105,7 @@ bool PoseBelief::surprises(const Event& event, const OdometryTrack& odometry) co
   return recovery_->surprising(*last, model.explained_share(event.payload, now));
 }
 
+// Of the last measurement of the same stream, whether an update used it or not.
 Link PoseBelief::link_to_last(const Event& event, const OdometryTrack& odometry) {
   const StreamModel& model = *models_[event.stream];
   if (!recovery_ || !model.can_continue() || !model.informs(event.payload)) return Link::kHolds;

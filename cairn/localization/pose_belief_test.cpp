@@ -80,6 +80,41 @@ TEST_F(PoseBeliefTest, ARobotThatIsStillBeingLookedForIsRecoveredToo) {
   EXPECT_LT(error_at_the_end(kElsewhere), 0.15);
 }
 
+// Its search says what is known; a place that took over meanwhile is not doubted any longer than that.
+TEST_F(PoseBeliefTest, NothingIsLeftUnsettledBesideTheSearch) {
+  LocalizerOptions options;
+  options.recovery.settle_m = 1000.0;
+  make(options, {});
+  carry_away();
+  EXPECT_GT(estimates_.back().judgement.probability, 0.9);
+}
+
+TEST_F(PoseBeliefTest, ThePlaceThatTakesOverIsJudgedByTheSameScan) {
+  make(LocalizerOptions{});
+  carry_away();
+  const auto found = std::find_if(estimates_.begin(), estimates_.end(), [&](const Estimate& e) {
+    return e.stamp > at(5.0) && distance(e.T_map_base, on_circle(kElsewhere, to_seconds(e.stamp))) < 0.5;
+  });
+  ASSERT_NE(found, estimates_.end());
+  EXPECT_GT(found->judgement.explained, 0.8);
+  EXPECT_GT(found->judgement.probability, 0.5);
+}
+
+TEST_F(PoseBeliefTest, ItIsNotSureOfItBeforeItIsSettled) {
+  make(LocalizerOptions{});
+  carry_away();
+  EXPECT_GT(estimates_.back().judgement.probability, 0.95);
+  LocalizerOptions never;
+  never.recovery.settle_m = 1000.0;
+  make(never);
+  carry_away();
+  for (const Estimate& e : estimates_) {
+    if (e.stamp > at(5.1)) {
+      EXPECT_LE(e.judgement.probability, 0.9);
+    }
+  }
+}
+
 TEST_F(PoseBeliefTest, NoEvidenceNeedBeAddedWhereTheMonitorDoubts) {
   LocalizerOptions options;
   options.recovery.sure = 1000.0;

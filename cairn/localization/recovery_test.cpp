@@ -281,6 +281,31 @@ TEST_F(RecoveryTest, ScansThatGoOnSettleWhereTheRobotIs) {
   EXPECT_TRUE(recovery_.anchored(memory_));
 }
 
+// Where scans are too far apart to be compared, a robot that was carried away is settled by its way alone.
+TEST_F(RecoveryTest, ScansThatCannotBeComparedDoNotUnsettle) {
+  recovery_.note(memory_, Link::kBroken, at(1.0));
+  Recovery::carry(memory_, {1.9, 0.0, 0.0}, 1.0);
+  recovery_.note(memory_, Link::kUnknown, at(2.0));
+  Recovery::carry(memory_, {0.2, 0.0, 0.0}, 1.0);
+  memory_.doubted_m = 0.0;
+  recovery_.settle(memory_, 0.99, Standing::kTrusted);
+  EXPECT_FALSE(memory_.carried);
+}
+
+TEST_F(RecoveryTest, EachScanThatDoesNotGoOnIsSearchedWithButNotTenASecond) {
+  const FoundElsewhere model(-20.0);
+  const auto searches_after_break = [&](double at_s) {
+    recovery_.note(memory_, Link::kBroken, at(at_s));
+    observe(model, at_s, true);
+    recovery_.search(memory_, model, at(at_s), {});
+    return model.searches;
+  };
+  EXPECT_EQ(searches_after_break(1.0), 1);
+  EXPECT_EQ(searches_after_break(1.2), 1);
+  EXPECT_EQ(searches_after_break(1.6), 2);
+  EXPECT_EQ(model.searched_with.size(), 1u) << "what was seen before is of another place";
+}
+
 TEST_F(RecoveryTest, APlaceThatHasTakenOverIsSettledLater) {
   memory_.rivals = {{{5, 0, 0}, 12.0}};
   ASSERT_TRUE(recovery_.take_over(memory_, kBelieved, Standing::kDoubtful, filter_));
