@@ -44,13 +44,13 @@ class Outline {
 
   /// Whether a point in the sensor's frame, `range` away, lies on it.
   Look look(const Point2& p, double range, double tolerance_m) const {
-    if (step_rad_ == 0.0) return Look::kOutOfView;
     const double place = place_of(std::atan2(p.y, p.x));
-    if (!round_ && place > static_cast<double>(count_ - 1)) return Look::kOutOfView;
+    // Not a number, where a scan's bearings are none.
+    if (!(place >= 0.0) || (!round_ && place > static_cast<double>(count_ - 1))) return Look::kOutOfView;
     const auto middle = static_cast<std::int64_t>(place);
     const double reach =
         range > tolerance_m ? std::asin(tolerance_m / range) / step_rad_ : 0.5 * static_cast<double>(count_);
-    const auto most = std::min<std::int64_t>(static_cast<std::int64_t>(reach) + 1, count_ / 2);
+    const auto most = static_cast<std::int64_t>(std::min(reach + 1.0, 0.5 * static_cast<double>(count_)));
     bool seen = false;
     for (std::int64_t k = 0; k <= most; ++k) {  // the nearest first: most points lie there
       if (near(middle + k, place, range, tolerance_m, seen) ||

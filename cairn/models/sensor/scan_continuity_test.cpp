@@ -90,8 +90,21 @@ TEST_F(ScanContinuityTest, SaysNothingOfScansThatAreFarApartOrSeeNothing) {
   EXPECT_FALSE(continuity_.share(seen(kHere), blind, {}));
   EXPECT_FALSE(continuity_.share(LaserScan{}, seen(kHere), {}));
   LaserScan still = seen(kHere);
-  still.angle_increment_rad = 0.0;
-  EXPECT_FALSE(continuity_.share(still, seen(kHere), {}));
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  for (const double increment : {0.0, kNan, 1e-300}) {
+    still.angle_increment_rad = increment;
+    EXPECT_FALSE(continuity_.share(still, seen(kHere), {})) << increment;
+    continuity_.share(seen(kHere), still, {});
+  }
+  for (const double increment : {std::numeric_limits<double>::infinity(), 1e300, -1e300}) {
+    still.angle_increment_rad = increment;
+    EXPECT_LT(continuity_.share(still, seen(kHere), {}).value_or(0.0), 0.9) << increment;
+    continuity_.share(seen(kHere), still, {});
+  }
+  LaserScan turned = seen(kHere);
+  turned.angle_min_rad = kNan;
+  EXPECT_FALSE(continuity_.share(turned, seen(kHere), {}));
+  EXPECT_FALSE(continuity_.share(seen(kHere), turned, {}));
 }
 
 }  // namespace
