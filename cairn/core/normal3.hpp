@@ -1,5 +1,8 @@
 #pragma once
 
+#include "cairn/core/rng.hpp"
+#include "cairn/core/sfc64.hpp"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -31,11 +34,18 @@ struct Normal3 {
     return static_cast<std::int16_t>(sum * 256 + (c & 0xf0) + 8);
   }
 
-  /// Items come in groups of 128, each with 72 blocks of Philox4x32-7. A group's bytes are nine rows of 128,
-  /// three rows (a, b, c) for each of the three numbers.
+  /// Items come in groups of 128. A group's bytes are nine rows of 128, three rows (a, b, c) for each of the
+  /// three numbers, and two numbers each of eight generators side by side.
   static constexpr std::uint32_t kGroup = 128;
-  static constexpr std::uint32_t kBlocks = 72;
   static constexpr std::size_t kBytes = std::size_t{9} * kGroup;
+  static constexpr std::size_t kGenerators = 8, kSteps = kBytes / (8 * kGenerators);
+
+  /// The generators of a group start with twelve blocks of Philox4x32-7.
+  static constexpr std::uint32_t kBlocks = 12;
+  static constexpr Sfc64 generator(const std::array<PhiloxCounter, kBlocks>& blocks, std::size_t g) {
+    const PhiloxCounter& shared = blocks[kGenerators + g % 4];
+    return {pair(blocks[g], 0), pair(blocks[g], 2), pair(shared, g < 4 ? 0 : 2)};
+  }
 
   /// The place in a row of an item of the group: sixteen bytes give the numbers of eight items of the first
   /// half, then of eight of the second (they leave a vector of bytes that way).
@@ -43,17 +53,19 @@ struct Normal3 {
     return item % 64 / 8 * 16 + item / 64 * 8 + item % 8;
   }
 
-  /// Where byte k of a group comes from: first words 1 and 0 of all blocks, then their words 3 and 2.
+  /// Where byte k of a group comes from.
   struct Place {
-    std::uint32_t block;
-    std::size_t word;
+    std::size_t step, generator;
     int shift;
   };
   static constexpr Place place_of(std::size_t k) {
-    constexpr std::size_t kHalf = kBytes / 2;
-    const std::size_t in_half = k % kHalf, in_block = in_half % 8;
-    return {static_cast<std::uint32_t>(in_half / 8), k / kHalf * 2 + (in_block < 4 ? 1 : 0),
-            static_cast<int>(in_block % 4 * 8)};
+    return {k / (8 * kGenerators), k / 8 % kGenerators, static_cast<int>(k % 8 * 8)};
+  }
+
+ private:
+  // Words k + 1 and k of a block: as the lanes leave them.
+  static constexpr std::uint64_t pair(const PhiloxCounter& block, std::size_t k) {
+    return std::uint64_t{block[k]} << 32 | block[k + 1];
   }
 };
 

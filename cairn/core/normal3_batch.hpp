@@ -17,10 +17,10 @@ namespace cairn {
 class Normal3Batch {
  public:
   static constexpr std::size_t kCapacity = std::size_t{4} * Normal3::kGroup;
+  static constexpr std::size_t kMostGroups = kCapacity / Normal3::kGroup + 1;  ///< it may begin within one
 
-  /// Whole groups of items are drawn: a batch may begin within one and end within another. The last vector,
-  /// of up to 32 numbers, may be read to its end.
-  using Numbers = std::array<std::array<std::int16_t, kCapacity + Normal3::kGroup + 32>, 3>;
+  /// Whole groups of items are drawn. The last vector, of up to 32 numbers, may be read to its end.
+  using Numbers = std::array<std::array<std::int16_t, kMostGroups * Normal3::kGroup + 32>, 3>;
 
   /// Draws for `count` items, at most kCapacity. @pre their numbers stay below 2^32
   void fill(const RandomStream& random, std::uint32_t first, std::size_t count, std::uint16_t draw = 0);

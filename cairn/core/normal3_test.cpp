@@ -89,10 +89,35 @@ TEST(Normal3, EveryByteOfAGroupBelongsToOneItem) {
   std::set<std::array<std::size_t, 3>> places;
   for (std::size_t k = 0; k < Normal3::kBytes; ++k) {
     const Normal3::Place p = Normal3::place_of(k);
-    EXPECT_LT(p.block, Normal3::kBlocks);
-    places.insert({p.block, p.word, static_cast<std::size_t>(p.shift)});
+    EXPECT_LT(p.step, Normal3::kSteps);
+    EXPECT_LT(p.generator, Normal3::kGenerators);
+    places.insert({p.step, p.generator, static_cast<std::size_t>(p.shift)});
   }
   EXPECT_EQ(places.size(), Normal3::kBytes);
+}
+
+TEST(Normal3, AnItemDrawsFromOneGenerator) {
+  for (std::size_t i = 0; i < Normal3::kGroup; ++i) {
+    const std::size_t column = Normal3::column_of(i);
+    for (std::size_t row = 0; row < 9; ++row)
+      EXPECT_EQ(Normal3::place_of(row * Normal3::kGroup + column).generator,
+                Normal3::place_of(column).generator);
+  }
+}
+
+// Generators that share a word of their start would be related.
+TEST(Normal3, EveryPairOfWordsStartsOneGenerator) {
+  std::array<PhiloxCounter, Normal3::kBlocks> blocks;
+  std::uint32_t word = 0;
+  for (PhiloxCounter& block : blocks)
+    for (std::uint32_t& w : block) w = word++;
+  std::set<std::uint64_t> starts;
+  for (std::size_t g = 0; g < Normal3::kGenerators; ++g) {
+    const Sfc64 s = Normal3::generator(blocks, g);
+    starts.insert({s.a, s.b, s.c});
+    EXPECT_EQ(s.counter, 1u);
+  }
+  EXPECT_EQ(starts.size(), 3 * Normal3::kGenerators);
 }
 
 }  // namespace

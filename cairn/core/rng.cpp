@@ -67,21 +67,22 @@ std::array<double, 4> RandomStream::normal4(std::uint32_t item, std::uint16_t dr
 
 std::array<double, 3> RandomStream::normal3(std::uint32_t item, std::uint16_t draw) const {
   PhiloxCounter first = counter(item, draw);
-  const std::uint32_t in_group = first[0] % Normal3::kGroup;
+  const std::size_t column = Normal3::column_of(first[0] % Normal3::kGroup);
   first[0] = first[0] / Normal3::kGroup * Normal3::kBlocks;
-  const auto byte = [&](std::size_t k) {
-    const Normal3::Place place = Normal3::place_of(k);
-    const PhiloxCounter words = philox4x32_7({first[0] + place.block, first[1], first[2], first[3]}, key());
-    return static_cast<std::uint8_t>(words[place.word] >> place.shift);
+  std::array<PhiloxCounter, Normal3::kBlocks> blocks;
+  for (PhiloxCounter& block : blocks) block = philox4x32_7(first, key()), ++first[0];
+
+  // All bytes of an item come from one generator.
+  Sfc64 generator = Normal3::generator(blocks, Normal3::place_of(column).generator);
+  std::array<std::uint64_t, Normal3::kSteps> words;
+  for (std::uint64_t& word : words) word = generator.next();
+  const auto byte = [&](std::size_t row) {
+    const Normal3::Place place = Normal3::place_of(row * Normal3::kGroup + column);
+    return static_cast<std::uint8_t>(words[place.step] >> place.shift);
   };
-  const std::size_t column = Normal3::column_of(in_group);
   std::array<double, 3> numbers;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t row = 3 * k * Normal3::kGroup + column;
-    const int whole = Normal3::from_bytes(byte(row), byte(row + Normal3::kGroup),
-                                          byte(row + std::size_t{2} * Normal3::kGroup));
-    numbers[k] = whole * Normal3::kUnit;
-  }
+  for (std::size_t k = 0; k < 3; ++k)
+    numbers[k] = Normal3::from_bytes(byte(3 * k), byte(3 * k + 1), byte(3 * k + 2)) * Normal3::kUnit;
   return numbers;
 }
 

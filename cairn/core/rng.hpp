@@ -48,9 +48,9 @@ class RandomStream {
   /// Four independent standard normal numbers (Box-Muller; at most 6.8 standard deviations).
   std::array<double, 4> normal4(std::uint32_t item, std::uint16_t draw = 0) const;
 
-  /// Three independent standard normal numbers for a fraction of the price of normal4, from 24 random bits
-  /// each (see Normal3). Blocks are shared by the items of a group: a stream gives either these or the
-  /// numbers above for a draw, not both.
+  /// Three independent standard normal numbers, from 24 random bits each (see Normal3): in batches
+  /// (Normal3Batch) for a fraction of the price of normal4. Blocks are shared by the items of a group: a
+  /// stream gives either these or the numbers above for a draw, not both.
   std::array<double, 3> normal3(std::uint32_t item, std::uint16_t draw = 0) const;
 
   /// Where the words of an item come from: those of the next item have the next counter[0] (modulo 2^32).
