@@ -216,7 +216,10 @@ void PoseBelief::recover(const StreamModel& model, const Event& event, const Pos
     recovery_->observe(memory, event.stream, model, event.payload, believed, in_doubt);
   recovery_->search(memory, model, event.stamp, believed);
   const Standing standing = recovery_->standing(right, seen);
-  const bool elsewhere = recovery_->take_over(memory, state_.track.places, standing, *filter_);
+  // Nothing that a search has not confirmed is trusted against a rival, however well the map explains it.
+  const Standing against =
+      state_.search.searching && standing == Standing::kTrusted ? Standing::kDoubtful : standing;
+  const bool elsewhere = recovery_->take_over(memory, state_.track.places, against, *filter_);
   if (elsewhere) {
     summarize({}, 0.0);
     state_.pose = state_.updated.T_map_base;

@@ -158,16 +158,28 @@ TEST_F(PoseBeliefTest, AScanThatDoesNotGoOnIsEnough) {
   EXPECT_LT(error_at_the_end(kElsewhere), 0.15);
 }
 
-TEST_F(PoseBeliefTest, NoRivalTakesOverFromAMonitorThatNeverDoubts) {
+LocalizerOptions never_doubting() {
   LocalizerOptions options;
   options.recovery.continued = 0.0;  // nor where a scan does not go on
   options.recovery.sure = 1000.0;
   options.recovery.doubt = 0.0;
   options.recovery.refuted = 2.0;  // not even by beams through walls
-  make(options);
+  return options;
+}
+
+TEST_F(PoseBeliefTest, NoRivalTakesOverFromAMonitorThatNeverDoubts) {
+  make(never_doubting());
   carry_away();
   EXPECT_TRUE(rivals_after_);
   EXPECT_GT(error_at_the_end(kElsewhere), 0.5);
+}
+
+// What no search has confirmed need not be doubted.
+TEST_F(PoseBeliefTest, ARivalTakesOverWhileTheRobotIsStillBeingLookedFor) {
+  make(never_doubting(), {});
+  carry_away();
+  EXPECT_TRUE(rivals_after_);
+  EXPECT_LT(error_at_the_end(kElsewhere), 0.15);
 }
 
 }  // namespace
