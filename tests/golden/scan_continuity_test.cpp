@@ -93,10 +93,10 @@ TEST_P(ScanContinuityOf, ConsecutiveScansAndThoseFromElsewhere) {
 
 INSTANTIATE_TEST_SUITE_P(
     Recordings, ScanContinuityOf,
-    ::testing::Values(Recording{"wean 1", "wean/robotdata1.log", "laser", "laser_odom", 0.005, 0.98},
-                      Recording{"wean 2", "wean/robotdata2.log", "laser", "laser_odom", 0.001, 0.96},
+    ::testing::Values(Recording{"wean 1", "wean/robotdata1.log", "laser", "laser_odom", 0.005, 0.99},
+                      Recording{"wean 2", "wean/robotdata2.log", "laser", "laser_odom", 0.001, 0.975},
                       Recording{"intel", "radish_raw/intel.clf.bz2", "flaser", "flaser_odom", 0.001, 0.98},
-                      Recording{"aces", "radish_raw/aces.clf.bz2", "flaser", "flaser_odom", 0.007, 0.98},
+                      Recording{"aces", "radish_raw/aces.clf.bz2", "flaser", "flaser_odom", 0.007, 0.99},
                       Recording{"jarvis", "jarvis_nav350/jarvis_complex_path_fast.bag",
                                 "/driver_laser_security/laser_scan", "tf:odom->base_footprint", 0.001, 0.90},
                       Recording{"mrpt_uwb", "mrpt_uwb_laser/log.txt", "laser", "odom", 0.005, 0.97}),

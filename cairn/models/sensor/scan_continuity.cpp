@@ -102,13 +102,23 @@ class Outline {
 
 std::optional<double> ScanContinuity::share(const LaserScan& before, const LaserScan& now,
                                             const Pose2& T_before_now) const {
-  const double way_m = std::hypot(T_before_now.x, T_before_now.y);
-  const double turn_rad = std::abs(normalize_angle(T_before_now.theta));
-  if (!(way_m <= options_.most_m) || !(turn_rad <= options_.most_rad)) return std::nullopt;
-  const Pose2 T_sensor_base = inverse(T_base_sensor_) * T_before_now;
-  const Outline outline(before, limits_, options_.gap_m);
+  const bool near = std::hypot(T_before_now.x, T_before_now.y) <= options_.most_m &&
+                    std::abs(normalize_angle(T_before_now.theta)) <= options_.most_rad;
+  if (!near) return std::nullopt;  // nor where the motion is no number
+  const std::optional<double> forth = share_on(before, now, T_before_now);
+  if (!forth || *forth >= options_.doubt) return forth;
+  return std::min(*forth, share_on(now, before, inverse(T_before_now)).value_or(1.0));
+}
+
+// Of `scan`, on what was seen in `seen`.
+std::optional<double> ScanContinuity::share_on(const LaserScan& seen, const LaserScan& scan,
+                                               const Pose2& T_seen_scan) const {
+  const double way_m = std::hypot(T_seen_scan.x, T_seen_scan.y);
+  const double turn_rad = std::abs(normalize_angle(T_seen_scan.theta));
+  const Pose2 T_sensor_base = inverse(T_base_sensor_) * T_seen_scan;
+  const Outline outline(seen, limits_, options_.gap_m);
   int in_view = 0, on_it = 0;
-  for (const Point2& end : select_end_points(now, T_base_sensor_, limits_, options_.beams)) {
+  for (const Point2& end : select_end_points(scan, T_base_sensor_, limits_, options_.beams)) {
     const Point2 p = T_sensor_base * end;
     const double range_m = std::sqrt(squared(p));
     const double tolerance_m = options_.tolerance_m + options_.per_way * way_m +

@@ -19,6 +19,7 @@ struct ScanContinuityOptions {
   double per_way = 0.2;
   double per_turn = 0.3;
   double gap_m = 0.5;     ///< neighbouring end points that are nearer than this are joined by a line
+  double doubt = 0.95;    ///< where less of the later scan lies there, the earlier one is asked, too
   double most_m = 0.5;    ///< scans that are farther apart than this, or turned by more, are not compared:
   double most_rad = 0.5;  ///< corners hide too much
 };
@@ -38,10 +39,15 @@ class ScanContinuity {
       : T_base_sensor_(T_base_sensor), limits_(limits), options_(options) {}
 
   /// Share of the later scan's end points in view of the earlier one that lie on what that one saw: 0..1.
-  /// nullopt: they are too far apart, or too few. @param T_before_now motion of the base, by odometry
+  /// Where it leaves a doubt, that of the earlier one's on what the later one saw, if it is less: a scan of a
+  /// recess may lie on the walls around it, but not the other way round. nullopt: they are too far apart, or
+  /// too few. @param T_before_now motion of the base, by odometry
   std::optional<double> share(const LaserScan& before, const LaserScan& now, const Pose2& T_before_now) const;
 
  private:
+  std::optional<double> share_on(const LaserScan& seen, const LaserScan& scan,
+                                 const Pose2& T_seen_scan) const;
+
   Pose2 T_base_sensor_;
   BeamLimits limits_;
   ScanContinuityOptions options_;

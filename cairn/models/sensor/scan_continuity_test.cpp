@@ -46,6 +46,21 @@ TEST_F(ScanContinuityTest, AScanFromElsewhereDoesNot) {
     EXPECT_LT(share(kHere, there, {0.05, 0.0, 0.0}).value_or(1.0), 0.6) << there.x << ' ' << there.y;
 }
 
+// What a few beams saw may lie on what many did, and not the other way round.
+TEST_F(ScanContinuityTest, BothScansAreAsked) {
+  const Pose2 step{0.05, 0.0, 0.1};
+  int differed = 0;
+  for (const Pose2& there : {Pose2{6.5, 4.5, 0.3}, {2.0, 1.5, 2.0}, {2.0, 3.5, 0.3}, {6.7, 1.0, -2.0}}) {
+    const auto forth = share(kHere, there, step), back = share(there, kHere, inverse(step));
+    ASSERT_TRUE(forth && back);
+    EXPECT_DOUBLE_EQ(*forth, *back) << there.x << ' ' << there.y;
+    const ScanContinuity one_way(kTBaseSensor, {}, {.doubt = 0.0});
+    differed += one_way.share(seen(kHere), seen(there), step) !=
+                one_way.share(seen(there), seen(kHere), inverse(step));
+  }
+  EXPECT_GT(differed, 0);
+}
+
 // Widths and angles of two corridors are alike, the place between the walls is not.
 TEST_F(ScanContinuityTest, AFewDecimetresAside) {
   EXPECT_LT(share(kHere, kHere * Pose2{0.0, 0.5, 0.0}, {}).value_or(1.0), 0.75);
