@@ -7,6 +7,7 @@ namespace cairn {
 namespace {
 
 constexpr double kSureOfStart = 3.0;  // log-odds of a start pose that was given
+constexpr double kWon = 2.0;          // of a place that has won with nine tenths of all odds
 constexpr double kMissing = 0.5;      // an open place has no returns either
 constexpr double kMostOdds = 8.0;     // a long good time must not make blind
 constexpr double kBlockedMemory = 0.7;
@@ -66,6 +67,8 @@ double Monitor::right(const MonitorMemory& memory) const {
 }
 
 void Monitor::start_over(MonitorMemory& memory) { memory.log_odds = 0.0; }
+
+void Monitor::take_over(MonitorMemory& memory) { memory.log_odds = kWon; }
 
 double Monitor::evidence(const MonitorInput& input, double usual) const {
   if (!input.seen) return kQualitySlope * (input.quality - kEvenQuality);

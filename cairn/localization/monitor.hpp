@@ -81,6 +81,8 @@ class Monitor {
 
   /// Another place is believed now, or candidates came in: what was known of the old one is void.
   static void start_over(MonitorMemory& memory);
+  /// Likewise, and the other one has won against all that are known (Recovery::take_over).
+  static void take_over(MonitorMemory& memory);
 
  private:
   double evidence(const MonitorInput& input, double usual) const;

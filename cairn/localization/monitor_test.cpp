@@ -54,6 +54,16 @@ TEST_F(MonitorTest, AWrongPlaceIsLostAfterAFewScans) {
   EXPECT_GT(look(kUsual, 40).probability, 0.9);  // and back
 }
 
+// What it was known for is void; one that has won against all others is more likely than not.
+TEST_F(MonitorTest, AnotherPlaceIsJudgedAnew) {
+  look(kUsual, 20);
+  Monitor::start_over(memory_);
+  EXPECT_EQ(monitor_.right(memory_), 0.5);
+  Monitor::take_over(memory_);
+  EXPECT_NEAR(monitor_.right(memory_), 0.9, 0.05);
+  EXPECT_LT(look(kElsewhere, 3).probability, 0.5);
+}
+
 TEST_F(MonitorTest, OneBadScanIsNotEnough) {
   look(kUsual, 20);
   EXPECT_EQ(look(kElsewhere).state, TrackingState::kTracking);

@@ -199,7 +199,7 @@ void PoseBelief::search(const StreamModel& model, const Event& event) {
   summarize({}, 0.0);
 }
 
-// Where a rival wins, the monitor begins anew.
+// Where a rival wins, it is judged anew by the same scan.
 void PoseBelief::recover(const StreamModel& model, const Event& event, const Pose2& moved, double since_s,
                          const std::optional<BeamShares>& seen) {
   if (!recovery_) return;
@@ -222,6 +222,7 @@ void PoseBelief::recover(const StreamModel& model, const Event& event, const Pos
   const bool elsewhere = recovery_->take_over(memory, state_.track.places, against, *filter_);
   if (elsewhere) {
     summarize({}, 0.0);
+    Monitor::take_over(state_.monitor);
     state_.pose = state_.updated.T_map_base;
     judge(model, event, {});
   }

@@ -97,7 +97,7 @@ TEST_F(PoseBeliefTest, ThePlaceThatTakesOverIsJudgedByTheSameScan) {
   });
   ASSERT_NE(found, estimates_.end());
   EXPECT_GT(found->judgement.explained, 0.8);
-  EXPECT_GT(found->judgement.probability, 0.5);
+  EXPECT_GT(found->judgement.probability, 0.75);
 }
 
 TEST_F(PoseBeliefTest, ItIsNotSureOfItBeforeItIsSettled) {
