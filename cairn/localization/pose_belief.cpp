@@ -109,12 +109,20 @@ bool PoseBelief::surprises(const Event& event, const OdometryTrack& odometry) co
 Link PoseBelief::link_to_last(const Event& event, const OdometryTrack& odometry) {
   const StreamModel& model = *models_[event.stream];
   if (!recovery_ || !model.can_continue() || !model.informs(event.payload)) return Link::kHolds;
+  if (!model.can_continue(event.payload)) return others_tell(event.stream) ? Link::kHolds : Link::kUnknown;
   const std::optional<Look> last =
       std::exchange(state_.looks[event.stream], Look{event.payload, odometry.anchor_at(event.stamp)});
   if (!last) return Link::kHolds;
   const PoseControl moved = odometry.control(last->at, event.stamp);
   if (moved.unknown_s > 0.0) return Link::kUnknown;
   return recovery_->link(model.continued_share(last->z, event.payload, moved.T_before_after));
+}
+
+// Whether measurements of another stream are compared.
+bool PoseBelief::others_tell(StreamId stream) const {
+  for (std::size_t i = 0; i < state_.looks.size(); ++i)
+    if (i != stream && state_.looks[i]) return true;
+  return false;
 }
 
 PoseBelief::Application PoseBelief::update(const Event& event, const OdometryTrack& odometry) {

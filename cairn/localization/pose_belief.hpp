@@ -118,6 +118,7 @@ class PoseBelief {
   void judge_by_rivals(bool trusted);
   bool surprises(const Event& event, const OdometryTrack& odometry) const;
   Link link_to_last(const Event& event, const OdometryTrack& odometry);
+  bool others_tell(StreamId stream) const;
   void add_rivals(const Pose2& T_then_now, double since_s, HypothesisSnapshot& snapshot) const;
   void search(const StreamModel& model, const Event& event);
 

@@ -115,6 +115,32 @@ TEST_F(PoseBeliefTest, ItIsNotSureOfItBeforeItIsSettled) {
   }
 }
 
+// A person before a camera fills its view: that is no kidnapping, as long as a laser sees that nothing has
+// moved.
+TEST_F(PoseBeliefTest, ACameraDoesNotTellThatTheRobotWasCarriedAway) {
+  streams_.push_back(streams_[1]);
+  streams_.back().name = "camera";
+  make(LocalizerOptions{});
+  for (int i = 0; i < 100; ++i) {
+    const double seconds = 0.05 * i;
+    odometry(seconds);
+    if (i % 4 != 0) continue;
+    scan(seconds + 0.013);
+    LaserScan narrow = test::scan_from(map_, on_circle(kStart, seconds + 0.02), at(seconds + 0.02), 360);
+    narrow.ranges_m.resize(60);
+    if (i / 4 == 15) std::fill(narrow.ranges_m.begin(), narrow.ranges_m.end(), 0.5f);
+    Event event = test::scan_event(std::move(narrow));
+    event.stream = 2;
+    localizer_->process(event);
+  }
+  localizer_->finish();
+  for (const Estimate& e : estimates_) {
+    if (e.stamp > at(1.0)) {
+      EXPECT_GT(e.judgement.probability, 0.9) << to_seconds(e.stamp);
+    }
+  }
+}
+
 TEST_F(PoseBeliefTest, NoEvidenceNeedBeAddedWhereTheMonitorDoubts) {
   LocalizerOptions options;
   options.recovery.sure = 1000.0;

@@ -103,6 +103,9 @@ class LaserStream final : public StreamModel {
     return parts_.classes->classify(scan_of(z), T_map_base);
   }
   bool can_continue() const override { return parts_.continuity.has_value(); }
+  bool can_continue(const Event::Payload& z) const override {
+    return parts_.continuity && parts_.continuity->can_tell(scan_of(z));
+  }
   std::optional<double> continued_share(const Event::Payload& before, const Event::Payload& now,
                                         const Pose2& T_before_now) const override {
     if (!parts_.continuity) return std::nullopt;

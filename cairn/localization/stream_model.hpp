@@ -76,6 +76,8 @@ class StreamModel {
 
   /// Whether continued_share() may ever tell.
   virtual bool can_continue() const { return false; }
+  /// Likewise of this measurement.
+  virtual bool can_continue(const Event::Payload& /*z*/) const { return can_continue(); }
 
   /// Share of a measurement that is where the one before leads to expect it, whatever the map says. nullopt:
   /// they are too far apart. @param T_before_now motion of the base in between

@@ -100,6 +100,11 @@ class Outline {
 
 }  // namespace
 
+bool ScanContinuity::can_tell(const LaserScan& scan) const {
+  return std::abs(scan.angle_increment_rad) * static_cast<double>(scan.ranges_m.size()) >=
+         options_.least_view_rad;
+}
+
 std::optional<double> ScanContinuity::share(const LaserScan& before, const LaserScan& now,
                                             const Pose2& T_before_now) const {
   const bool near = std::hypot(T_before_now.x, T_before_now.y) <= options_.most_m &&

@@ -18,8 +18,9 @@ struct ScanContinuityOptions {
   double per_range = 0.02;
   double per_way = 0.2;
   double per_turn = 0.3;
-  double gap_m = 0.5;     ///< neighbouring end points that are nearer than this are joined by a line
-  double doubt = 0.95;    ///< where less of the later scan lies there, the earlier one is asked, too
+  double least_view_rad = 2.0;  ///< scanners that see less are not asked: one person may fill their view
+  double gap_m = 0.5;           ///< neighbouring end points that are nearer than this are joined by a line
+  double doubt = 0.95;          ///< where less of the later scan lies there, the earlier one is asked, too
   double most_m = 0.5;    ///< scans that are farther apart than this, or turned by more, are not compared:
   double most_rad = 0.5;  ///< corners hide too much
 };
@@ -37,6 +38,9 @@ class ScanContinuity {
   ScanContinuity(const Pose2& T_base_sensor, const BeamLimits& limits,
                  const ScanContinuityOptions& options = {})
       : T_base_sensor_(T_base_sensor), limits_(limits), options_(options) {}
+
+  /// Whether a scan sees enough to be compared.
+  bool can_tell(const LaserScan& scan) const;
 
   /// Share of the later scan's end points in view of the earlier one that lie on what that one saw: 0..1.
   /// Where it leaves a doubt, that of the earlier one's on what the later one saw, if it is less: a scan of a

@@ -46,6 +46,16 @@ TEST_F(ScanContinuityTest, AScanFromElsewhereDoesNot) {
     EXPECT_LT(share(kHere, there, {0.05, 0.0, 0.0}).value_or(1.0), 0.6) << there.x << ' ' << there.y;
 }
 
+TEST_F(ScanContinuityTest, ACameraIsNotAsked) {
+  LaserScan scan = seen(kHere);  // all around
+  EXPECT_TRUE(continuity_.can_tell(scan));
+  scan.ranges_m.resize(90);
+  EXPECT_TRUE(continuity_.can_tell(scan));
+  scan.ranges_m.resize(30);
+  EXPECT_FALSE(continuity_.can_tell(scan));
+  EXPECT_FALSE(continuity_.can_tell(LaserScan{}));
+}
+
 // What a few beams saw may lie on what many did, and not the other way round.
 TEST_F(ScanContinuityTest, BothScansAreAsked) {
   const Pose2 step{0.05, 0.0, 0.1};
