@@ -141,6 +141,26 @@ TEST_F(PoseBeliefTest, ACameraDoesNotTellThatTheRobotWasCarriedAway) {
   }
 }
 
+// With a camera alone nothing says that the robot was not: it is doubted by what the map explains.
+TEST_F(PoseBeliefTest, ACameraAloneKeepsNoPose) {
+  make(LocalizerOptions{});
+  for (int i = 0; i < 300; ++i) {
+    const double seconds = 0.05 * i;
+    odometry(seconds);
+    if (i % 4 != 0) continue;
+    const Pose2 truth = on_circle(seconds > 5.0 ? kElsewhere : kStart, seconds + 0.013);
+    LaserScan narrow = test::scan_from(map_, truth, at(seconds + 0.013), 360);
+    narrow.ranges_m.resize(100);
+    localizer_->process(test::scan_event(std::move(narrow)));
+    const HypothesisSnapshot known = localizer_->hypotheses();
+    // Within a metre of the way: an anchored pose would have none.
+    if (seconds > 5.0 && seconds < 6.0)
+      rivals_after_ |= std::any_of(known.hypotheses.begin(), known.hypotheses.end(),
+                                   [](const Hypothesis& h) { return h.id >= kFirstRival; });
+  }
+  EXPECT_TRUE(rivals_after_);
+}
+
 TEST_F(PoseBeliefTest, NoEvidenceNeedBeAddedWhereTheMonitorDoubts) {
   LocalizerOptions options;
   options.recovery.sure = 1000.0;
