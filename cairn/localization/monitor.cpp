@@ -7,7 +7,7 @@ namespace cairn {
 namespace {
 
 constexpr double kSureOfStart = 3.0;  // log-odds of a start pose that was given
-constexpr double kWon = 2.0;          // of a place that has won with nine tenths of all odds
+constexpr double kWon = 2.0;          // of a place that has won against all others
 constexpr double kMissing = 0.5;      // an open place has no returns either
 constexpr double kMostOdds = 8.0;     // a long good time must not make blind
 constexpr double kBlockedMemory = 0.7;
