@@ -34,24 +34,35 @@ HWY_INLINE Cells without_bias(D biased) {
   return hn::Xor(hn::BitCast(du, biased), hn::BitCast(du, hn::Set(Doubles(), kBias)));
 }
 
+// Products of the low halves.
+HWY_INLINE Cells times(Cells a, Cells b) {
+#if HWY_TARGET == HWY_SCALAR
+  constexpr std::uint64_t kLow = 0xffffffffU;
+  return hn::Set(hn::RebindToUnsigned<Doubles>(), (hn::GetLane(a) & kLow) * (hn::GetLane(b) & kLow));
+#else
+  const hn::Repartition<std::uint32_t, hn::RebindToUnsigned<Doubles>> halves;
+  return hn::MulEven(hn::BitCast(halves, a), hn::BitCast(halves, b));
+#endif
+}
+
 // The cells of a vector of poses, their doubles one after the other; true where there is one.
 HWY_INLINE hn::Mask<Doubles> find_cells(const PoseCells& c, const double* poses, Cells& cell) {
   const Doubles d;
   const hn::RebindToUnsigned<Doubles> du;
   D x, y, theta;
   hn::LoadInterleaved3(d, poses, x, y, theta);
-  const D scale = hn::Set(d, c.cells_per_m), headings = hn::Set(d, c.headings), bias = hn::Set(d, kBias);
-  const D column = hn::Sub(hn::Floor(hn::Mul(x, scale)), hn::Set(d, c.first_x));
-  const D row = hn::Sub(hn::Floor(hn::Mul(y, scale)), hn::Set(d, c.first_y));
-  // 0 .. side - 1, a power of two: no bit but the lowest ones differs from those of the bias.
-  const auto beyond =
-      hn::And(hn::Or(without_bias(hn::Add(column, bias)), without_bias(hn::Add(row, bias))),
-              hn::Set(du, ~std::uint64_t{0} << std::countr_zero(static_cast<std::uint32_t>(c.side))));
+  const auto side = static_cast<std::uint32_t>(c.side);
+  const D scale = hn::Set(d, c.cells_per_m), bias = hn::Set(d, kBias);
+  const Cells column = without_bias(hn::Add(hn::Floor(hn::Mul(x, scale)), hn::Set(d, kBias - c.first_x)));
+  const Cells row = without_bias(hn::Add(hn::Floor(hn::Mul(y, scale)), hn::Set(d, kBias - c.first_y)));
+  // 0 .. side - 1, a power of two: no bit but the lowest ones is set.
+  const Cells beyond = hn::And(hn::Or(column, row), hn::Set(du, ~std::uint64_t{side - 1}));
   const auto is_heading = hn::Le(hn::Abs(theta), hn::Set(d, PoseCells::kLargestHeading));
   const D turn = hn::Floor(hn::Mul(theta, hn::Set(d, c.headings / kTwoPi)));
-  const D first = hn::IfThenElse(hn::Lt(turn, hn::Zero(d)), hn::Add(bias, headings), bias);
-  const D place = hn::Mul(hn::Add(hn::Mul(row, hn::Set(d, c.side)), column), headings);
-  cell = without_bias(hn::Add(place, hn::Add(turn, first)));
+  const D first = hn::IfThenElse(hn::Lt(turn, hn::Zero(d)), hn::Set(d, kBias + c.headings), bias);
+  const Cells place = hn::Add(hn::ShiftLeftSame(row, std::countr_zero(side)), column);
+  cell = hn::Add(times(place, hn::Set(du, static_cast<std::uint64_t>(c.headings))),
+                 without_bias(hn::Add(turn, first)));
   return hn::And(hn::RebindMask(d, hn::Eq(beyond, hn::Zero(du))), is_heading);
 }
 
@@ -69,6 +80,15 @@ struct Marker {
     place = mark;
   }
 
+  // Poses of a belief share few cells: most have their mark.
+  HWY_INLINE void put_all(const std::uint64_t* each) {
+    bool known = true;
+    HWY_UNROLL(8)
+    for (std::size_t k = 0; k < kLanes; ++k) known = known && marks[each[k]] == mark;
+    if (HWY_LIKELY(known)) return;
+    for (std::size_t k = 0; k < kLanes; ++k) put(each[k]);
+  }
+
   // The vector's first `count` poses; the first of all has this number.
   HWY_INLINE void add(const double* poses, std::size_t number, std::size_t count) {
     const Doubles d;
@@ -78,9 +98,7 @@ struct Marker {
     HWY_ALIGN std::uint64_t each[kLanes];
     if (HWY_LIKELY(hn::AllTrue(d, found) && count == kLanes)) {
       hn::Store(cell, du, each);
-      HWY_UNROLL(8)
-      for (const std::uint64_t k : each) put(k);
-      return;
+      return put_all(each);
     }
     constexpr std::uint64_t kNowhere = ~std::uint64_t{0};
     hn::Store(hn::IfThenElse(hn::RebindMask(du, found), cell, hn::Set(du, kNowhere)), du, each);
