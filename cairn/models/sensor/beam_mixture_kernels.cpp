@@ -20,23 +20,20 @@ using F = hn::Vec<Floats>;
 
 HWY_INLINE F all(float value) { return hn::Set(Floats(), value); }
 
-constexpr float kSmallestExponent = -86.0f;  // exp of less counts as exp of this, 5e-38
-constexpr float kLeastExpected_m = 1e-3f;    // a ray that starts in a wall: keeps 1 - exp(-lambda r) above 0
-constexpr float kBeyondReach_m = 1e9f;       // the map's range of a ray that meets nothing
+constexpr float kSmallestExponent = -124.0f;  // 2 to the power of less counts as that of this, 5e-38
+constexpr float kLeastExpected_m = 1e-3f;     // a ray that starts in a wall: keeps 1 - exp(-lambda r) above 0
+constexpr float kBeyondReach_m = 1e9f;        // the map's range of a ray that meets nothing
 
-// exp of numbers that are not positive.
-HWY_INLINE F exp_of(F x) {
+// 2 to the power of numbers that are not positive, within 4e-6 of itself: the polynomial through its values
+// at five Chebyshev nodes of [-1/2, 1/2].
+HWY_INLINE F power_of_two(F x) {
   const Floats d;
   const hn::RebindToSigned<Floats> di;
   x = hn::Max(x, all(kSmallestExponent));
   const F bias = all(rounding_bias(d));
-  const F biased = hn::Add(hn::Mul(x, all(1.44269504088896341f)), bias);
-  const F n = hn::Sub(biased, bias);
-  F r = hn::Sub(x, hn::Mul(n, all(0.693359375f)));
-  r = hn::Add(r, hn::Mul(n, all(2.12194440e-4f)));
-  const F tail = horner(d, r, all(1.9875691500e-4f), 1.3981999507e-3, 8.3334519073e-3, 4.1665795894e-2,
-                        1.6666665459e-1, 5.0000001201e-1);
-  const F power = hn::Add(hn::Add(hn::Mul(hn::Mul(tail, r), r), r), all(1.0f));
+  const F biased = hn::Add(x, bias);
+  const F power = horner(d, hn::Sub(x, hn::Sub(biased, bias)), all(9.666368515387469e-3f),
+                         5.5921975842256264e-2, 0.24022349038020335, 0.693121045203427, 1.0);
   return hn::BitCast(d, hn::Add(hn::BitCast(di, power), hn::ShiftLeft<23>(hn::BitCast(di, biased))));
 }
 
@@ -56,14 +53,17 @@ void multiply_return(const BeamCauses& causes, float z_m, float unexpected, cons
                      BeamProducts& products) {
   const Floats d;
   const BeamCauses c = causes;  // not to be read again after each store
+  constexpr float kBitsPerNat = std::numbers::log2e_v<float>;
+  const F per_spread = all(c.per_sigma * std::sqrt(0.5f * kBitsPerNat)),
+          lambda = all(c.lambda_per_m * kBitsPerNat);
   const F z = all(z_m), one = all(1.0f);
   for (std::size_t i = 0; i < BeamProducts::kCapacity; i += hn::Lanes(d)) {
     const F middle = hn::Add(hn::LoadU(d, ranges_m + i), all(c.depth_m));
     const F met = hn::IfThenElse(hn::Lt(middle, all(c.max_range_m)), middle, all(kBeyondReach_m));
     const F r = hn::Max(met, all(kLeastExpected_m));
-    const F deviation = hn::Mul(hn::Sub(z, r), all(c.per_sigma));
-    const F hit = hn::Mul(all(c.hit), exp_of(hn::Mul(hn::Mul(deviation, deviation), all(-0.5f))));
-    const F before_wall = hn::Sub(one, exp_of(hn::Mul(r, all(-c.lambda_per_m))));
+    const F deviation = hn::Mul(hn::Sub(z, r), per_spread);
+    const F hit = hn::Mul(all(c.hit), power_of_two(hn::Neg(hn::Mul(deviation, deviation))));
+    const F before_wall = hn::Sub(one, power_of_two(hn::Neg(hn::Mul(r, lambda))));
     const F near = hn::IfThenElseZero(hn::Le(z, r), hn::Div(all(unexpected), before_wall));
     multiply_vector(hn::Add(hn::Add(hit, near), all(c.rand)), i, products);
   }
