@@ -38,7 +38,8 @@ void add_config(CLI::App& program, Runner& run) {
   auto* command =
       program.add_subcommand("config", "Print the effective configuration with its documentation");
   auto a = std::make_shared<Arguments>();
-  command->add_option("recipe", a->recipe, "mcl or kld_mcl");
+  command->add_option("recipe", a->recipe,
+                      "as recipe in the configuration: kld_mcl (the default), mcl, amcl, cgr, ...");
   command->add_option("--config", a->config, "Start from this file (YAML, nav2 AMCL parameters)");
   command->add_option("--set", a->settings, "key=value, over the configuration; may be repeated");
   command->callback([a, &run] { run = [a] { return run_config(*a); }; });

@@ -93,6 +93,9 @@ class Campaign {
   std::vector<Run> run() const {
     const auto chosen =
         choose_kidnappings(first_.posed(), second_.posed(), arguments_.events, seed_, arguments_.kidnap);
+    if (chosen.empty() && arguments_.events > 0)
+      throw ConfigurationError("--events", "the recording has no two places for a kidnapping",
+                               "ask for less: --before, --after (s), --distance (m)");
     std::vector<Run> runs(std::max<std::size_t>(chosen.size(), arguments_.events == 0 ? 1 : 0));
     const Executor executor(arguments_.jobs);
     executor.for_each_chunk(runs.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -125,7 +128,9 @@ class Campaign {
   Run whole() const {
     Run run{"whole", {}, {}, {}, first_.log.events.back().stamp, {}};
     run.kidnapping.from = run.kidnapping.to = run.kidnapped;
-    run.estimates = localized(first_.log, first_.reference, seed_);
+    Log log = first_.log;
+    std::erase_if(log.events, [&](const Event& e) { return e.stamp < first_.reference.front().stamp; });
+    run.estimates = localized(log, first_.reference, seed_);
     run.outcome = judge_kidnapping(run.estimates, run.kidnapped);
     return run;
   }
@@ -197,11 +202,10 @@ std::string summary_of(const std::vector<Run>& runs) {
   }
   const auto median = [](std::vector<double>& values) {
     std::sort(values.begin(), values.end());
-    return values.empty() ? -1.0 : values[values.size() / 2];
+    return values.empty() ? "-" : fmt::format("{:.2f} s", values[values.size() / 2]);
   };
   return fmt::format(
-      "kidnapped {} times; right again within 10 s: {}; ever: {}, median {:.2f} s; told lost: {}, median "
-      "{:.2f} s\n"
+      "kidnapped {} times; right again within 10 s: {}; ever: {}, median {}; told lost: {}, median {}\n"
       "false alarms {} in {:.0f} s without an event\n",
       counted, within, found.size(), median(found), lost.size(), median(lost), alarms, before_s);
 }

@@ -118,8 +118,12 @@ std::string text_of(const json& metrics) {
         radians_to_degrees(a["heading_mean_rad"].get<double>()));
   }
   const json& t = metrics["timings"];
-  text += fmt::format("belief    {}, {} updates\n", metrics["verdict"].get<std::string>(),
+  text += fmt::format("belief    {}, {} updates", metrics["verdict"].get<std::string>(),
                       metrics["updates"].get<std::int64_t>());
+  if (const json& end = metrics["monitor"]; end.contains("state"))
+    text += fmt::format("; at the end {}, right with a probability of {:.0f} %",
+                        end["state"].get<std::string>(), 100.0 * end["probability"].get<double>());
+  text += '\n';
   text += fmt::format("time      {:.2f} s for {:.0f} s of log ({:.0f} times real time, reading included)\n",
                       t["total_s"].get<double>(), metrics["log"]["span_s"].get<double>(),
                       t["realtime_factor"].get<double>());
@@ -184,7 +188,7 @@ RunSummary summarize_run(const RunContext& context, const Log& log, const Occupa
     const Score measured = score(*reference, trajectory);
     m["accuracy"] = accuracy_json(measured);
     summary.lost = measured.lost.lost;
-    if (summary.lost) summary.reason = lost_by_reference(measured);
+    summary.reason = summary.lost ? lost_by_reference(measured) : "the reference says so";
   }
   m["verdict"] = summary.lost ? "lost" : "tracking";
   m["verdict_reason"] = summary.reason;

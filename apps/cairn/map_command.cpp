@@ -156,8 +156,7 @@ void add_build(CLI::App& parent, Runner& run) {
   auto* command = parent.add_subcommand("build", "Occupancy map from a log and the path that the robot took");
   auto a = std::make_shared<BuildArguments>();
   GridBuilderOptions& grid = a->options.grid;
-  command->add_option("--log", a->log, "Log with laser scans (CARMEN, Wean, MRPT text, ROS 1 bag)")
-      ->required();
+  command->add_option("--log", a->log, "Log with laser scans, as for `cairn localize`")->required();
   command->add_option("--trajectory", a->trajectory, "Poses in the map, in the log's clock")->required();
   command
       ->add_option("--out", a->out,

@@ -11,7 +11,9 @@ constexpr double kWon = 2.0;          // of a place that has won against all oth
 constexpr double kMissing = 0.5;      // an open place has no returns either
 constexpr double kMostOdds = 8.0;     // a long good time must not make blind
 constexpr double kBlockedMemory = 0.7;
-constexpr double kTrusted = 2.0;  // log-odds above which a scan counts as usual
+constexpr double kTrusted = 2.0;      // log-odds above which a scan counts as usual
+constexpr double kUsualMemory = 0.9;  // of what a scanner says against poses that others vouch for
+constexpr double kMisfit = -0.5;      // log-odds: so much against them, and its map does not fit it
 // Without classes of beams: what an explained share says.
 constexpr double kQualitySlope = 4.0;
 constexpr double kEvenQuality = 0.55;
@@ -77,7 +79,15 @@ double Monitor::evidence(const MonitorInput& input, double usual) const {
                      options_.beyond * s.beyond + options_.fit * s.fit +
                      options_.drop * std::max(0.0, usual - s.explained) +
                      options_.innovation * std::min(1.0, input.innovation_m);
-  return std::clamp(sum, -options_.largest, options_.largest);
+  return input.share * std::clamp(sum, -options_.largest, options_.largest);
+}
+
+// What a scanner says against poses that others vouch for, it says for want of a map that fits it; so does
+// one that is known for that.
+double Monitor::counted(double evidence, bool vouched, MonitorMemory::Stream& stream) const {
+  if (vouched)
+    stream.usually_against += (1.0 - kUsualMemory) * (std::min(0.0, evidence) - stream.usually_against);
+  return vouched || stream.usually_against <= kMisfit ? std::max(0.0, evidence) : evidence;
 }
 
 Judgement Monitor::update(MonitorMemory& memory, const MonitorInput& input) const {
@@ -90,7 +100,8 @@ Judgement Monitor::update(MonitorMemory& memory, const MonitorInput& input) cons
     const double explained = input.seen ? input.seen->explained : input.quality;
     const double usual = stream.usual_explained < 0.0 ? explained : stream.usual_explained;
     memory.last_evidence = evidence(input, usual);
-    memory.log_odds = std::clamp(log_odds(still) + memory.last_evidence, -kMostOdds, kMostOdds);
+    memory.log_odds = std::clamp(log_odds(still) + counted(memory.last_evidence, input.vouched, stream),
+                                 -kMostOdds, kMostOdds);
     if (memory.log_odds > kTrusted)
       stream.usual_explained = options_.usual_memory * usual + (1.0 - options_.usual_memory) * explained;
     const double blocked = input.seen ? input.seen->blocked : 0.0;
@@ -99,16 +110,22 @@ Judgement Monitor::update(MonitorMemory& memory, const MonitorInput& input) cons
   Judgement judgement;
   judgement.entropy = entropy_of(input.places);
   judgement.innovation = input.innovation_m;
-  if (input.seen) {
-    judgement.explained = input.seen->explained;
-    judgement.blocked = input.seen->blocked;
-    judgement.beyond = input.seen->beyond;
-    judgement.fit = input.seen->fit;
-  }
+  if (input.seen) describe(*input.seen, judgement);
   const double weight = input.places.empty() ? 1.0 : input.places.front().weight;
   judgement.probability = weight * right(memory);
   judgement.state = state(memory, input);
   return judgement;
+}
+
+bool Monitor::fits(const MonitorMemory& memory, StreamId stream) {
+  return memory.streams[stream].usually_against > kMisfit;
+}
+
+void Monitor::describe(const BeamShares& seen, Judgement& judgement) {
+  judgement.explained = seen.explained;
+  judgement.blocked = seen.blocked;
+  judgement.beyond = seen.beyond;
+  judgement.fit = seen.fit;
 }
 
 TrackingState Monitor::state(const MonitorMemory& memory, const MonitorInput& input) const {

@@ -45,12 +45,16 @@ struct MonitorInput {
   double quality = 0.0;                ///< used instead: share that the map explains
   std::span<const Hypothesis> places;  ///< the believed one first
   double innovation_m = 0.0;           ///< see Judgement
+  double share = 1.0;  ///< of the scan's beams that `seen` is about: so much its evidence counts
+  bool vouched =
+      false;  ///< another scanner speaks for the pose: what this one says against it does not count
 };
 
 /// All that changes in a monitor.
 struct MonitorMemory {
   struct Stream {
     double usual_explained = -1.0;  ///< none yet
+    double usually_against = 0.0;   ///< evidence against poses that another scanner vouches for, mean
     int blind = 0;                  ///< scans in a row without a usable beam
   };
   std::vector<Stream> streams;
@@ -83,9 +87,14 @@ class Monitor {
   static void start_over(MonitorMemory& memory);
   /// Likewise, and the other one has won against all that are known (Recovery::take_over).
   static void take_over(MonitorMemory& memory);
+  /// Whether the map fits the scanner: it does not speak against what others vouch for, scan after scan.
+  static bool fits(const MonitorMemory& memory, StreamId stream);
+  /// Puts the shares of the whole scan into the judgement.
+  static void describe(const BeamShares& seen, Judgement& judgement);
 
  private:
   double evidence(const MonitorInput& input, double usual) const;
+  double counted(double evidence, bool vouched, MonitorMemory::Stream& stream) const;
   TrackingState state(const MonitorMemory& memory, const MonitorInput& input) const;
 
   MonitorOptions options_;

@@ -54,6 +54,34 @@ TEST_F(MonitorTest, AWrongPlaceIsLostAfterAFewScans) {
   EXPECT_GT(look(kUsual, 40).probability, 0.9);  // and back
 }
 
+TEST_F(MonitorTest, EvidenceCountsAsFarAsTheBeamsThatItIsOf) {
+  monitor_.update(memory_, {.seen = kElsewhere, .places = places_, .share = 0.0});
+  const double untouched = memory_.log_odds;
+  EXPECT_EQ(memory_.last_evidence, 0.0);
+  monitor_.update(memory_, {.seen = kElsewhere, .places = places_});
+  const double whole = memory_.last_evidence;
+  monitor_.update(memory_, {.seen = kElsewhere, .places = places_, .share = 0.5});
+  EXPECT_NEAR(memory_.last_evidence, 0.5 * whole, 1e-12);
+  EXPECT_LT(memory_.log_odds, untouched);
+}
+
+// Another scanner speaks for the pose; later it is silent for a while, or speaks against it, too.
+TEST_F(MonitorTest, AScannerThatNothingFitsIsKnownForThat) {
+  EXPECT_TRUE(Monitor::fits(memory_, 0));
+  Judgement judgement;
+  for (int i = 0; i < 30; ++i)
+    judgement = monitor_.update(memory_, {.seen = kElsewhere, .places = places_, .vouched = true});
+  EXPECT_GT(judgement.probability, 0.9);
+  EXPECT_FALSE(Monitor::fits(memory_, 0));
+  EXPECT_GT(look(kElsewhere, 10).probability, 0.9);
+}
+
+TEST_F(MonitorTest, AScannerThatFitsIsHeardWhenNobodyVouches) {
+  for (int i = 0; i < 30; ++i) monitor_.update(memory_, {.seen = kUsual, .places = places_, .vouched = true});
+  EXPECT_TRUE(Monitor::fits(memory_, 0));
+  EXPECT_LT(look(kElsewhere, 10).probability, 0.5);
+}
+
 // What it was known for is void; one that has won against all others is more likely than not.
 TEST_F(MonitorTest, AnotherPlaceIsJudgedAnew) {
   look(kUsual, 20);

@@ -60,6 +60,21 @@ LocalizerOptions within_memory(LocalizerOptions options, const GridGeometry& map
   return options;
 }
 
+// Where a log tells the mount of a scanner, that of the configuration is not used unless it is asked for.
+void warn_of_unused_mounts(const LocalizerOptions& options, const std::vector<StreamInfo>& streams,
+                           Diagnostics& diagnostics) {
+  for (const StreamInfo& stream : streams) {
+    const auto found = options.streams.find(stream.name);
+    if (found == options.streams.end() || !found->second.use || !found->second.mount_from_log) continue;
+    const Pose2& given = found->second.T_base_sensor;
+    const bool set = given.x != 0.0 || given.y != 0.0 || given.theta != 0.0;
+    if (set && stream.T_base_sensor)
+      diagnostics.warn("mount of the configuration not used: the log tells one", "stream " + stream.name,
+                       "the log tells where it is mounted; set streams." + stream.name +
+                           ".mount_from_log=false to use the mount of the configuration");
+  }
+}
+
 FusionParts compose(const LocalizerOptions& given, const std::vector<StreamInfo>& streams,
                     const MapLibrary& maps, const Start& start, std::uint64_t seed,
                     std::shared_ptr<const Executor> executor, std::unique_ptr<CostClock> cost_clock,
@@ -69,6 +84,7 @@ FusionParts compose(const LocalizerOptions& given, const std::vector<StreamInfo>
   const auto map = maps.main().grid();
   const LocalizerOptions options = within_memory(given, map->geometry(), start, parts.diagnostics);
   parts.streams = bind_streams(options, streams, maps, places);
+  warn_of_unused_mounts(options, streams, parts.diagnostics);
   parts.filter = std::make_unique<ParticlePoseFilter>(make_filter(options, seed, executor, map.get()),
                                                       options.random_walk);
   if (start.T_map_base) {

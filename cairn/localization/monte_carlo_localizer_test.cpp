@@ -385,5 +385,15 @@ TEST_F(MonteCarloLocalizerTest, TheSameBytesForAnyNumberOfThreads) {
   }
 }
 
+TEST_F(MonteCarloLocalizerTest, AMountThatTheLogOverridesIsTold) {
+  LocalizerOptions options = few_particles();
+  options.streams["laser"].T_base_sensor = {0.3, 0.0, 0.0};
+  make(options);
+  EXPECT_EQ(warnings("mount of the configuration not used: the log tells one"), 1);
+  options.streams["laser"].mount_from_log = false;
+  make(options);
+  EXPECT_EQ(warnings("mount of the configuration not used: the log tells one"), 0);
+}
+
 }  // namespace
 }  // namespace cairn

@@ -20,6 +20,7 @@ Eigen::Matrix3d carried(const Eigen::Matrix3d& covariance, const Pose2& from, co
 // Ids of places beside the belief begin here.
 constexpr std::uint32_t kFirstRival = 1'000'000;
 constexpr double kNegligible = 1e-3;
+constexpr int kStillHeard = 8;  // measurements of other streams after which one counts no more
 
 double apart(const Pose2& a, const Pose2& b) {
   return distance(a, b) + std::abs(normalize_angle(a.theta - b.theta));
@@ -41,6 +42,7 @@ PoseBelief::PoseBelief(Parts parts)
   state_.offered.resize(models_.size());
   state_.explained.resize(models_.size());
   state_.looks.resize(models_.size());
+  state_.voices.resize(models_.size());
   state_.monitor = Monitor::begin(models_.size(), global_start_ != nullptr);
   if (recovery_) state_.recovery = recovery_->begin(global_start_ != nullptr);
 }
@@ -178,7 +180,8 @@ void PoseBelief::summarize(const Pose2& moved, double since_s) {
   state_.updated.weight = places[0].weight;
 }
 
-// Returns how the beams stand to the map.
+// Returns how the beams that tell something stand to the map. Where scans have gone on all the way, those
+// that end off the map say nothing: the robot has left what is mapped.
 std::optional<BeamShares> PoseBelief::judge(const StreamModel& model, const Event& event,
                                             const Pose2& moved) {
   Estimate& now = state_.updated;
@@ -190,13 +193,19 @@ std::optional<BeamShares> PoseBelief::judge(const StreamModel& model, const Even
     state_.explained[event.stream] = now.quality;
   }
   const std::optional<BeamShares> seen = model.classify(event.payload, now.T_map_base);
+  const bool tracked = recovery_ && recovery_->well_tracked(state_.recovery);
+  const auto telling = seen && tracked ? std::optional(on_the_map(*seen)) : seen;
   now.judgement = monitor_.update(state_.monitor,
                                   {.stream = event.stream,
-                                   .seen = seen,
+                                   .seen = telling,
                                    .quality = now.quality,
                                    .places = state_.track.places,
-                                   .innovation_m = state_.started ? apart(predicted, now.T_map_base) : 0.0});
-  return seen;
+                                   .innovation_m = state_.started ? apart(predicted, now.T_map_base) : 0.0,
+                                   .share = seen && tracked ? 1.0 - seen->unknown : 1.0,
+                                   .vouched = vouched_by_others(event.stream)});
+  if (seen) Monitor::describe(*seen, now.judgement);
+  hear(model, event);
+  return telling;
 }
 
 // Where else a robot may be that is still being looked for.
@@ -207,6 +216,22 @@ void PoseBelief::search(const StreamModel& model, const Event& event) {
   summarize({}, 0.0);
 }
 
+// A scanner that its map does not fit speaks against the pose wherever the robot is. While the last scan of
+// another one speaks for it, what this one says is not counted against it; but all count where the robot may
+// have been carried away, or is still being looked for.
+bool PoseBelief::vouched_by_others(StreamId stream) const {
+  if (state_.recovery.carried || state_.search.searching) return false;
+  for (std::size_t i = 0; i < state_.voices.size(); ++i)
+    if (i != stream && state_.voices[i] && state_.voices[i]->evidence > 0.0) return true;
+  return false;
+}
+
+void PoseBelief::hear(const StreamModel& model, const Event& event) {
+  for (auto& voice : state_.voices)
+    if (voice && ++voice->age > kStillHeard) voice.reset();
+  if (model.can_continue(event.payload)) state_.voices[event.stream] = Voice{state_.monitor.last_evidence};
+}
+
 // Where a rival wins, it is judged anew by the same scan.
 void PoseBelief::recover(const StreamModel& model, const Event& event, const Pose2& moved, double since_s,
                          const std::optional<BeamShares>& seen) {
@@ -214,16 +239,18 @@ void PoseBelief::recover(const StreamModel& model, const Event& event, const Pos
   RecoveryMemory& memory = state_.recovery;
   const Pose2& believed = state_.updated.T_map_base;
   const double right = monitor_.right(state_.monitor);
-  const bool doubtful = recovery_->doubtful(right, state_.updated.judgement.explained,
+  const bool fits = Monitor::fits(state_.monitor, event.stream);
+  const bool doubtful = recovery_->doubtful(right, seen ? seen->explained : state_.updated.quality,
                                             state_.monitor.streams[event.stream].usual_explained);
   Recovery::carry(memory, moved, since_s);
-  if (!doubtful) memory.doubted_m = 0.0;
+  if (!doubtful && fits) memory.doubted_m = 0.0;
   if (state_.search.searching) Recovery::unsettle(memory);
   const bool in_doubt = memory.carried || (doubtful && !recovery_->anchored(memory));
-  if (model.informs(event.payload))
+  if (model.informs(event.payload) && fits)
     recovery_->observe(memory, event.stream, model, event.payload, believed, in_doubt);
-  recovery_->search(memory, model, event.stamp, believed);
-  const Standing standing = recovery_->standing(right, seen);
+  recovery_->search(memory, *models_[memory.stream], event.stamp, believed);
+  const bool vouched = vouched_by_others(event.stream) || !fits;
+  const Standing standing = recovery_->standing(right, vouched ? std::nullopt : seen);
   // Nothing that a search has not confirmed is trusted against a rival, however well the map explains it.
   const Standing against =
       state_.search.searching && standing == Standing::kTrusted ? Standing::kDoubtful : standing;
@@ -235,7 +262,7 @@ void PoseBelief::recover(const StreamModel& model, const Event& event, const Pos
     judge(model, event, {});
   }
   judge_by_rivals(standing == Standing::kTrusted && !elsewhere);
-  recovery_->settle(memory, right, standing);
+  recovery_->settle(memory, right, standing, vouched);
 }
 
 // What the rivals leave of the belief. A pose that nothing else speaks against is called ambiguous by them,

@@ -78,6 +78,10 @@ class PoseBelief {
     Event::Payload z;
     OdometryAnchor at;
   };
+  struct Voice {
+    double evidence;  ///< for the pose, log-odds
+    int age = 0;      ///< measurements of any stream since
+  };
   struct State {
     bool started = false;
     Time stamp;
@@ -87,6 +91,7 @@ class PoseBelief {
     std::vector<std::int64_t> offered;                   ///< per stream, how many came since
     std::vector<std::optional<double>> explained;        ///< per stream, share of it that the map explained
     std::vector<std::optional<Look>> looks;              ///< per stream, its last measurement
+    std::vector<std::optional<Voice>> voices;  ///< per stream, of its last measurement that was used
     HypothesisTrack track;
     Pose2 pose;  ///< of the last update, for the innovation
     MonitorMemory monitor;
@@ -115,6 +120,8 @@ class PoseBelief {
   std::optional<BeamShares> judge(const StreamModel& model, const Event& event, const Pose2& moved);
   void recover(const StreamModel& model, const Event& event, const Pose2& moved, double since_s,
                const std::optional<BeamShares>& seen);
+  bool vouched_by_others(StreamId stream) const;
+  void hear(const StreamModel& model, const Event& event);
   void judge_by_rivals(bool trusted);
   bool surprises(const Event& event, const OdometryTrack& odometry) const;
   Link link_to_last(const Event& event, const OdometryTrack& odometry);

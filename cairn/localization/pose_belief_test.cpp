@@ -3,6 +3,8 @@
 #include "monte_carlo_fixture.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -159,6 +161,59 @@ TEST_F(PoseBeliefTest, ACameraAloneKeepsNoPose) {
                                    [](const Hypothesis& h) { return h.id >= kFirstRival; });
   }
   EXPECT_TRUE(rivals_after_);
+}
+
+// Its beams pass through walls wherever the robot is: it is mounted higher than what was mapped, say.
+TEST_F(PoseBeliefTest, AScannerThatTheMapDoesNotFitDoesNotDoubtWhatAnotherOneSees) {
+  streams_.push_back(streams_[1]);
+  streams_.back().name = "high";
+  make(LocalizerOptions{});
+  for (int i = 0; i < 400; ++i) {
+    const double seconds = 0.05 * i;
+    odometry(seconds);
+    if (i % 4 != 0) continue;
+    scan(seconds + 0.013);
+    LaserScan high = test::scan_from(map_, on_circle(kStart, seconds + 0.02), at(seconds + 0.02));
+    for (std::size_t k = 0; k < high.ranges_m.size() / 2; ++k) high.ranges_m[k] *= 1.7f;
+    localizer_->process(test::scan_event(std::move(high), 2));
+  }
+  localizer_->finish();
+  for (const Estimate& e : estimates_) {
+    EXPECT_LT(distance(e.T_map_base, on_circle(kStart, to_seconds(e.stamp))), 0.3) << to_seconds(e.stamp);
+    EXPECT_TRUE(claims_to_know(e)) << to_seconds(e.stamp);
+  }
+}
+
+// From 10 s on it sees a part of the room that was never mapped.
+TEST_F(PoseBeliefTest, ARobotThatSeesWhatIsNotMappedIsNotLost) {
+  const OccupancyGrid whole = map_;
+  const GridGeometry& grid = whole.geometry();
+  auto cells = whole.cells();
+  for (int row = 0; row < grid.height; ++row) {
+    for (int column = grid.width / 2; column < grid.width; ++column)
+      cells[grid.index(column, row)] = OccupancyGrid::kUnknown;
+  }
+  map_ = OccupancyGrid(grid, std::move(cells));
+  make(LocalizerOptions{});
+  for (int i = 0; i < 600; ++i) {
+    const double seconds = 0.05 * i;
+    odometry(seconds);
+    if (i % 4 != 0) continue;
+    const Pose2 truth = on_circle(kStart, seconds + 0.013);
+    LaserScan seen = test::scan_from(whole, truth, at(seconds + 0.013));
+    for (std::size_t k = 0; k < seen.ranges_m.size(); ++k) {
+      const double bearing = seen.angle_min_rad + static_cast<double>(k) * seen.angle_increment_rad;
+      const Point2 end =
+          truth * Point2{seen.ranges_m[k] * std::cos(bearing), seen.ranges_m[k] * std::sin(bearing)};
+      if (seconds < 10.0 && end.x > 4.0) seen.ranges_m[k] = 0.0f;
+    }
+    localizer_->process(test::scan_event(std::move(seen)));
+  }
+  localizer_->finish();
+  for (const Estimate& e : estimates_) {
+    EXPECT_LT(distance(e.T_map_base, on_circle(kStart, to_seconds(e.stamp))), 0.3) << to_seconds(e.stamp);
+    EXPECT_TRUE(claims_to_know(e)) << to_seconds(e.stamp);
+  }
 }
 
 TEST_F(PoseBeliefTest, NoEvidenceNeedBeAddedWhereTheMonitorDoubts) {

@@ -137,14 +137,19 @@ bool Recovery::anchored(const RecoveryMemory& memory) const {
   return !memory.carried && memory.proven_m >= options_.anchor_m;
 }
 
+bool Recovery::well_tracked(const RecoveryMemory& memory) const {
+  return !memory.carried && memory.proven_m >= 2.0 * options_.anchor_m;
+}
+
 void Recovery::unsettle(RecoveryMemory& memory) {
   memory.proven_m = 0.0;
   memory.carried = false;
 }
 
-void Recovery::settle(RecoveryMemory& memory, double right, Standing standing) const {
-  if (right < kHardlyRight || standing == Standing::kRefuted || memory.doubted_m >= options_.anchor_m)
-    memory.proven_m = 0.0;
+void Recovery::settle(RecoveryMemory& memory, double right, Standing standing, bool vouched) const {
+  const bool disproved =
+      right < kHardlyRight || standing == Standing::kRefuted || memory.doubted_m >= options_.anchor_m;
+  if (disproved && !vouched) memory.proven_m = 0.0;
   const bool alone = Rivals::believed_share(memory.rivals) >= kSettled;
   if (memory.proven_m < (memory.carried ? memory.settled_at_m : options_.anchor_m) || !alone) return;
   memory.carried = false;

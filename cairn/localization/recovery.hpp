@@ -122,8 +122,12 @@ class Recovery {
   /// Whether the robot has been tracked to where it is believed, scan by scan: then it cannot be far away,
   /// however much better other places explain what is seen (decision 99).
   bool anchored(const RecoveryMemory& memory) const;
+  /// Whether the map has had its say as well, for as much way again (a start pose that was given may be
+  /// wrong): what ends off the map says nothing then.
+  bool well_tracked(const RecoveryMemory& memory) const;
   /// The belief after a measurement: what it has proven, and whether that settles where the robot is.
-  void settle(RecoveryMemory& memory, double right, Standing standing) const;
+  /// @param vouched another scanner speaks for the pose: what this one says does not disprove it
+  void settle(RecoveryMemory& memory, double right, Standing standing, bool vouched = false) const;
 
   /// Nothing is proven: something else tells where the robot may be.
   static void unsettle(RecoveryMemory& memory);

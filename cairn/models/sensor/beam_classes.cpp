@@ -17,6 +17,17 @@ double bearing_of(const LaserScan& scan, std::size_t beam) {
 
 }  // namespace
 
+BeamShares on_the_map(const BeamShares& seen) {
+  BeamShares known = seen;
+  const double share = 1.0 - seen.unknown;
+  known.beams = static_cast<int>(std::lround(share * seen.beams));
+  if (known.beams == 0) return {.missing = seen.missing};
+  for (double* figure : {&known.explained, &known.blocked, &known.beyond, &known.residual}) *figure /= share;
+  known.fit = (seen.fit - seen.unknown * std::log(kElsewhere)) / share;
+  known.unknown = 0.0;
+  return known;
+}
+
 BeamClassifier::BeamClassifier(std::shared_ptr<const OccupancyGrid> map,
                                std::shared_ptr<const DistanceField> walls,
                                std::shared_ptr<const RayMarcher> rays, const Pose2& T_base_sensor,

@@ -25,6 +25,10 @@ struct BeamShares {
   double residual = 0.0;
 };
 
+/// The shares among the beams that end where the map knows something: what is off the map says nothing then.
+/// 0 beams if hardly one is left.
+BeamShares on_the_map(const BeamShares& seen);
+
 struct BeamClassOptions {
   int beams = 60;                ///< looked at, spread evenly over the valid ones
   double tolerance_m = 0.15;     ///< of the end point, or of the range

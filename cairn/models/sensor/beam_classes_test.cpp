@@ -2,6 +2,8 @@
 
 #include "mini_maps.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace cairn {
@@ -76,6 +78,23 @@ TEST_F(BeamClasses, WhatEndsWhereNothingIsMappedSpeaksForNothing) {
   LaserScan scan{{}, 0.0, 0.01, 0.1, 30.0, {5.5f, 5.5f}};  // through the right wall
   const BeamShares shares = classifier(map).classify(scan, {1.5, 1.5, 0.0});
   EXPECT_EQ(shares.unknown, 1.0);
+}
+
+TEST_F(BeamClasses, OnTheMapAreTheSharesOfWhatEndsThere) {
+  const BeamShares half{.explained = 0.3,
+                        .blocked = 0.1,
+                        .beyond = 0.1,
+                        .unknown = 0.5,
+                        .fit = 0.5 * std::log(0.15),
+                        .beams = 60};
+  const BeamShares known = on_the_map(half);
+  EXPECT_NEAR(known.explained, 0.6, 1e-12);
+  EXPECT_NEAR(known.blocked, 0.2, 1e-12);
+  EXPECT_NEAR(known.beyond, 0.2, 1e-12);
+  EXPECT_EQ(known.unknown, 0.0);
+  EXPECT_NEAR(known.fit, 0.0, 1e-12);
+  EXPECT_EQ(known.beams, 30);
+  EXPECT_EQ(on_the_map({.unknown = 1.0, .beams = 60}).beams, 0);
 }
 
 TEST_F(BeamClasses, AScanWithoutABeamSaysNothing) {
