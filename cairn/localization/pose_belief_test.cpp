@@ -184,6 +184,25 @@ TEST_F(PoseBeliefTest, AScannerThatTheMapDoesNotFitDoesNotDoubtWhatAnotherOneSee
   }
 }
 
+// Both doubt at once, and each is looked for from its own mount.
+TEST_F(PoseBeliefTest, ARobotWithScannersToBothSidesIsFoundAgain) {
+  const Pose2 T_base_rear{-0.3, 0.0, 2.5};
+  streams_.push_back({"rear", StreamKind::kLaserScan, "", T_base_rear});
+  make(LocalizerOptions{});
+  for (int i = 0; i < 140; ++i) {
+    const double seconds = 0.05 * i;
+    odometry(seconds);
+    if (i % 4 != 0) continue;
+    const Pose2& start = seconds > 5.0 ? kElsewhere : kStart;
+    localizer_->process(
+        test::scan_event(test::scan_from(map_, on_circle(start, seconds + 0.013), at(seconds + 0.013))));
+    const Pose2 rear = on_circle(start, seconds + 0.02) * T_base_rear;
+    localizer_->process(test::scan_event(test::scan_from(map_, rear, at(seconds + 0.02)), 2));
+  }
+  localizer_->finish();
+  EXPECT_LT(error_at_the_end(kElsewhere), 0.15);
+}
+
 // From 10 s on it sees a part of the room that was never mapped.
 TEST_F(PoseBeliefTest, ARobotThatSeesWhatIsNotMappedIsNotLost) {
   const OccupancyGrid whole = map_;
