@@ -138,6 +138,11 @@ std::string lost_by_reference(const Score& score) {
                      100 * score.lost.bad_share, score.lost.ends_lost ? ", the last ones too" : "");
 }
 
+std::string near_reference(const Score& score) {
+  return fmt::format("{:.0f} % of the poses lie within 1 m and 45 degrees of the reference",
+                     100 * (1.0 - score.lost.bad_share));
+}
+
 // An interrupted run may end before its reference begins.
 bool any_inside(const Trajectory& reference, const Trajectory& estimate) {
   return !estimate.empty() && std::any_of(reference.begin(), reference.end(), [&](const StampedPose& p) {
@@ -188,7 +193,7 @@ RunSummary summarize_run(const RunContext& context, const Log& log, const Occupa
     const Score measured = score(*reference, trajectory);
     m["accuracy"] = accuracy_json(measured);
     summary.lost = measured.lost.lost;
-    summary.reason = summary.lost ? lost_by_reference(measured) : "the reference says so";
+    summary.reason = summary.lost ? lost_by_reference(measured) : near_reference(measured);
   }
   m["verdict"] = summary.lost ? "lost" : "tracking";
   m["verdict_reason"] = summary.reason;

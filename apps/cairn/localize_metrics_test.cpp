@@ -62,6 +62,8 @@ TEST_F(SummarizeRun, TellsTheOutcomesPerStreamAndAddsUpTheWarnings) {
 
 TEST_F(SummarizeRun, MeasuresTheAccuracyWhereThereIsAReference) {
   const RunSummary summary = summarize(standing(0.3));
+  EXPECT_EQ(summary.metrics["verdict_reason"],
+            "100 % of the poses lie within 1 m and 45 degrees of the reference");
   EXPECT_NEAR(summary.metrics["accuracy"]["ate_mean_m"].get<double>(), 0.3, 1e-12);
   EXPECT_EQ(summary.metrics["accuracy"]["matched"], 10);
   EXPECT_FALSE(summary.lost);
