@@ -248,7 +248,8 @@ void PoseBelief::recover(const StreamModel& model, const Event& event, const Pos
   const bool in_doubt = memory.carried || (doubtful && !recovery_->anchored(memory));
   if (model.informs(event.payload) && fits)
     recovery_->observe(memory, event.stream, model, event.payload, believed, in_doubt);
-  recovery_->search(memory, *models_[memory.stream], event.stamp, believed);
+  const StreamModel& of_glimpses = memory.glimpses.empty() ? model : *models_[memory.stream];
+  recovery_->search(memory, of_glimpses, event.stamp, believed);
   const bool vouched = vouched_by_others(event.stream) || !fits;
   const Standing standing = recovery_->standing(right, vouched ? std::nullopt : seen);
   // Nothing that a search has not confirmed is trusted against a rival, however well the map explains it.
