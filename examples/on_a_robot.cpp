@@ -26,8 +26,8 @@ class Localization {
     localizer_.process({stamp, now, kWheels, cairn::Odometry{stamp, T_odom_base}});
   }
 
-  // A scan takes some milliseconds at most; one after which a lost robot is looked for on the whole map much
-  // longer: call it from a thread of its own.
+  // A scan takes milliseconds (docs/models.md); one after which a lost robot is looked for on the whole map
+  // much longer: call it from a thread of its own.
   void on_scan(cairn::LaserScan scan, cairn::Time now) {
     const cairn::Time stamp = scan.stamp;
     localizer_.process({stamp, now, kLaser, std::make_shared<const cairn::LaserScan>(std::move(scan))});

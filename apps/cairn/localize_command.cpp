@@ -310,10 +310,8 @@ void add_localize(CLI::App& program, Runner& run) {
                     "Do not write run.mcap, which `cairn replay` and Foxglove read");
   command->footer(
       "Exit code: 0 tracking to the end, 4 lost at the end (by the reference where there is one, else by "
-      "what the run thinks "
-      "of itself), 1 ended early by Ctrl-C (what was computed is "
-      "written "
-      "all the same), 2 usage or configuration, 3 input that cannot be read.");
+      "what the run thinks of itself), 1 ended early by Ctrl-C (what was computed is written all the same), "
+      "2 usage or configuration, 3 input that cannot be read.");
   command->callback([a, &run] { run = [a] { return run_localize(*a); }; });
 }
 

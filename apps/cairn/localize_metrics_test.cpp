@@ -58,6 +58,7 @@ TEST_F(SummarizeRun, TellsTheOutcomesPerStreamAndAddsUpTheWarnings) {
   EXPECT_FALSE(m.contains("accuracy"));
   EXPECT_EQ(m["verdict"], "tracking");
   EXPECT_THAT(summary.text, HasSubstr("warning   duplicate scan: 3"));
+  EXPECT_THAT(summary.text, HasSubstr("; at the end tracking, right with a probability of"));
 }
 
 TEST_F(SummarizeRun, MeasuresTheAccuracyWhereThereIsAReference) {

@@ -121,6 +121,10 @@ bool Monitor::fits(const MonitorMemory& memory, StreamId stream) {
   return memory.streams[stream].usually_against > kMisfit;
 }
 
+void Monitor::believe(MonitorMemory& memory, StreamId stream) {
+  memory.streams[stream].usually_against = 0.0;
+}
+
 void Monitor::describe(const BeamShares& seen, Judgement& judgement) {
   judgement.explained = seen.explained;
   judgement.blocked = seen.blocked;

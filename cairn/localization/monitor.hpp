@@ -45,9 +45,8 @@ struct MonitorInput {
   double quality = 0.0;                ///< used instead: share that the map explains
   std::span<const Hypothesis> places;  ///< the believed one first
   double innovation_m = 0.0;           ///< see Judgement
-  double share = 1.0;  ///< of the scan's beams that `seen` is about: so much its evidence counts
-  bool vouched =
-      false;  ///< another scanner speaks for the pose: what this one says against it does not count
+  double share = 1.0;    ///< of the scan's beams that `seen` is about: so much its evidence counts
+  bool vouched = false;  ///< for the pose by another scanner: what this one says against it does not count
 };
 
 /// All that changes in a monitor.
@@ -89,6 +88,8 @@ class Monitor {
   static void take_over(MonitorMemory& memory);
   /// Whether the map fits the scanner: it does not speak against what others vouch for, scan after scan.
   static bool fits(const MonitorMemory& memory, StreamId stream);
+  /// No other scanner is left to say so.
+  static void believe(MonitorMemory& memory, StreamId stream);
   /// Puts the shares of the whole scan into the judgement.
   static void describe(const BeamShares& seen, Judgement& judgement);
 

@@ -74,6 +74,9 @@ TEST_F(MonitorTest, AScannerThatNothingFitsIsKnownForThat) {
   EXPECT_GT(judgement.probability, 0.9);
   EXPECT_FALSE(Monitor::fits(memory_, 0));
   EXPECT_GT(look(kElsewhere, 10).probability, 0.9);
+  Monitor::believe(memory_, 0);
+  EXPECT_TRUE(Monitor::fits(memory_, 0));
+  EXPECT_LT(look(kElsewhere, 10).probability, 0.5);
 }
 
 TEST_F(MonitorTest, AScannerThatFitsIsHeardWhenNobodyVouches) {

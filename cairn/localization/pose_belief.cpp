@@ -20,7 +20,6 @@ Eigen::Matrix3d carried(const Eigen::Matrix3d& covariance, const Pose2& from, co
 // Ids of places beside the belief begin here.
 constexpr std::uint32_t kFirstRival = 1'000'000;
 constexpr double kNegligible = 1e-3;
-constexpr int kStillHeard = 8;  // measurements of other streams after which one counts no more
 
 double apart(const Pose2& a, const Pose2& b) {
   return distance(a, b) + std::abs(normalize_angle(a.theta - b.theta));
@@ -42,7 +41,7 @@ PoseBelief::PoseBelief(Parts parts)
   state_.offered.resize(models_.size());
   state_.explained.resize(models_.size());
   state_.looks.resize(models_.size());
-  state_.voices.resize(models_.size());
+  state_.witnesses = Witnesses(models_.size());
   state_.monitor = Monitor::begin(models_.size(), global_start_ != nullptr);
   if (recovery_) state_.recovery = recovery_->begin(global_start_ != nullptr);
 }
@@ -216,20 +215,19 @@ void PoseBelief::search(const StreamModel& model, const Event& event) {
   summarize({}, 0.0);
 }
 
-// A scanner that its map does not fit speaks against the pose wherever the robot is. While the last scan of
-// another one speaks for it, what this one says is not counted against it; but all count where the robot may
-// have been carried away, or is still being looked for.
+// A scanner that its map does not fit speaks against the pose wherever the robot is. While another one
+// vouches for it, what this one says is not counted against it; but all count where the robot may have been
+// carried away, or is still being looked for.
 bool PoseBelief::vouched_by_others(StreamId stream) const {
-  if (state_.recovery.carried || state_.search.searching) return false;
-  for (std::size_t i = 0; i < state_.voices.size(); ++i)
-    if (i != stream && state_.voices[i] && state_.voices[i]->evidence > 0.0) return true;
-  return false;
+  return !state_.recovery.carried && !state_.search.searching && state_.witnesses.vouched(stream);
 }
 
+// One that is left alone is believed again, whatever others made of it.
 void PoseBelief::hear(const StreamModel& model, const Event& event) {
-  for (auto& voice : state_.voices)
-    if (voice && ++voice->age > kStillHeard) voice.reset();
-  if (model.can_continue(event.payload)) state_.voices[event.stream] = Voice{state_.monitor.last_evidence};
+  state_.witnesses.pass();
+  if (model.can_continue(event.payload))
+    state_.witnesses.hear(event.stream, state_.monitor.last_evidence, state_.updated.judgement.explained);
+  if (state_.witnesses.alone(event.stream)) Monitor::believe(state_.monitor, event.stream);
 }
 
 // Where a rival wins, it is judged anew by the same scan.

@@ -13,6 +13,7 @@
 #include "cairn/localization/recovery.hpp"
 #include "cairn/localization/scheduler.hpp"
 #include "cairn/localization/stream_model.hpp"
+#include "cairn/localization/witnesses.hpp"
 
 #include <memory>
 #include <optional>
@@ -78,10 +79,6 @@ class PoseBelief {
     Event::Payload z;
     OdometryAnchor at;
   };
-  struct Voice {
-    double evidence;  ///< for the pose, log-odds
-    int age = 0;      ///< measurements of any stream since
-  };
   struct State {
     bool started = false;
     Time stamp;
@@ -91,7 +88,7 @@ class PoseBelief {
     std::vector<std::int64_t> offered;                   ///< per stream, how many came since
     std::vector<std::optional<double>> explained;        ///< per stream, share of it that the map explained
     std::vector<std::optional<Look>> looks;              ///< per stream, its last measurement
-    std::vector<std::optional<Voice>> voices;  ///< per stream, of its last measurement that was used
+    Witnesses witnesses;
     HypothesisTrack track;
     Pose2 pose;  ///< of the last update, for the innovation
     MonitorMemory monitor;

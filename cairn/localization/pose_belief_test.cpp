@@ -40,6 +40,23 @@ class PoseBeliefTest : public test::MonteCarloLocalizerTest {
     }
     localizer_->finish();
   }
+  // Ten scans in two seconds; `look(seconds)` gives those of the second scanner.
+  template <class Look>
+  void with_second_scanner(double until, const Look& look, const LocalizerOptions& options = {}) {
+    streams_.push_back(streams_[1]);
+    streams_.back().name = "second";
+    make(options);
+    for (int i = 0; 0.05 * i < until; ++i) {
+      odometry(0.05 * i);
+      if (i % 4 == 0) localizer_->process(test::scan_event(look(0.05 * i + 0.013), 2));
+    }
+    localizer_->finish();
+  }
+  LaserScan above_the_walls(const Pose2& truth, double seconds) const {
+    LaserScan high = test::scan_from(map_, truth, at(seconds + 0.007));
+    for (std::size_t k = 0; k < high.ranges_m.size() / 2; ++k) high.ranges_m[k] *= 1.7f;
+    return high;
+  }
   static bool claims_to_know(const Estimate& e) {
     return e.judgement.state == TrackingState::kTracking || e.judgement.state == TrackingState::kCrowded;
   }
@@ -120,22 +137,13 @@ TEST_F(PoseBeliefTest, ItIsNotSureOfItBeforeItIsSettled) {
 // A person before a camera fills its view: that is no kidnapping, as long as a laser sees that nothing has
 // moved.
 TEST_F(PoseBeliefTest, ACameraDoesNotTellThatTheRobotWasCarriedAway) {
-  streams_.push_back(streams_[1]);
-  streams_.back().name = "camera";
-  make(LocalizerOptions{});
-  for (int i = 0; i < 100; ++i) {
-    const double seconds = 0.05 * i;
-    odometry(seconds);
-    if (i % 4 != 0) continue;
-    scan(seconds + 0.013);
-    LaserScan narrow = test::scan_from(map_, on_circle(kStart, seconds + 0.02), at(seconds + 0.02), 360);
+  with_second_scanner(5.0, [&](double seconds) {
+    scan(seconds);
+    LaserScan narrow = test::scan_from(map_, on_circle(kStart, seconds + 0.007), at(seconds + 0.007), 360);
     narrow.ranges_m.resize(60);
-    if (i / 4 == 15) std::fill(narrow.ranges_m.begin(), narrow.ranges_m.end(), 0.5f);
-    Event event = test::scan_event(std::move(narrow));
-    event.stream = 2;
-    localizer_->process(event);
-  }
-  localizer_->finish();
+    if (std::abs(seconds - 3.013) < 1e-6) std::fill(narrow.ranges_m.begin(), narrow.ranges_m.end(), 0.5f);
+    return narrow;
+  });
   for (const Estimate& e : estimates_) {
     if (e.stamp > at(1.0)) {
       EXPECT_GT(e.judgement.probability, 0.9) << to_seconds(e.stamp);
@@ -165,19 +173,10 @@ TEST_F(PoseBeliefTest, ACameraAloneKeepsNoPose) {
 
 // Its beams pass through walls wherever the robot is: it is mounted higher than what was mapped, say.
 TEST_F(PoseBeliefTest, AScannerThatTheMapDoesNotFitDoesNotDoubtWhatAnotherOneSees) {
-  streams_.push_back(streams_[1]);
-  streams_.back().name = "high";
-  make(LocalizerOptions{});
-  for (int i = 0; i < 400; ++i) {
-    const double seconds = 0.05 * i;
-    odometry(seconds);
-    if (i % 4 != 0) continue;
-    scan(seconds + 0.013);
-    LaserScan high = test::scan_from(map_, on_circle(kStart, seconds + 0.02), at(seconds + 0.02));
-    for (std::size_t k = 0; k < high.ranges_m.size() / 2; ++k) high.ranges_m[k] *= 1.7f;
-    localizer_->process(test::scan_event(std::move(high), 2));
-  }
-  localizer_->finish();
+  with_second_scanner(20.0, [&](double seconds) {
+    scan(seconds);
+    return above_the_walls(on_circle(kStart, seconds), seconds);
+  });
   for (const Estimate& e : estimates_) {
     EXPECT_LT(distance(e.T_map_base, on_circle(kStart, to_seconds(e.stamp))), 0.3) << to_seconds(e.stamp);
     EXPECT_TRUE(claims_to_know(e)) << to_seconds(e.stamp);

@@ -56,6 +56,7 @@ class Kidnap(CliTest):
         self.assert_refused(self.kidnap("--set", "recovery.activ=true"), USAGE, "did you mean 'active'")
         for option, value in (("--events", "-1"), ("--before", "0"), ("--after", "-3"), ("--distance", "x"), ("--jobs", "0"), ("--seed", "x")):
             self.assert_refused(self.kidnap(option, value), USAGE, option)
+        self.assert_refused(self.kidnap("--events", "1", "--before", "4000"), USAGE, "no two places for a kidnapping")
         self.write("file", "")
         self.assert_refused(self.kidnap("--events", "1", "--before", "4", "--after", "4", out="file"), USAGE, "file")
 
