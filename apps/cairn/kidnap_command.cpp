@@ -173,15 +173,16 @@ std::string events_csv(const std::vector<Run>& runs) {
 std::string updates_csv(const std::vector<Run>& runs) {
   std::string text =
       "event,after_s,error_m,error_rad,right,state,probability,explained,blocked,beyond,fit,innovation_m,"
-      "weight,place,quality,among\n";
+      "weight,place,quality,among,drift_m\n";
   for (const Run& r : runs) {
     for (const JudgedEstimate& e : r.estimates) {
       const Judgement& j = e.estimate.judgement;
       text += fmt::format(
-          "{},{:.3f},{:.3f},{:.3f},{:d},{},{:.5f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{},{:.4f},{:d}\n",
+          "{},{:.3f},{:.3f},{:.3f},{:d},{},{:.5f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{},{:.4f},{:d},{:"
+          ".4f}\n",
           r.name, to_seconds(e.estimate.stamp - r.kidnapped), e.error_m, e.error_rad, e.right(),
           to_string(j.state), j.probability, j.explained, j.blocked, j.beyond, j.fit, j.innovation, e.weight,
-          e.place, e.estimate.quality, e.among);
+          e.place, e.estimate.quality, e.among, j.drift);
     }
   }
   return text;

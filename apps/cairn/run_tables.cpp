@@ -153,7 +153,7 @@ Judgement parse_judgement(TableReader& table) {
   Judgement j;
   j.state = table.state();
   for (double* value :
-       {&j.probability, &j.explained, &j.blocked, &j.beyond, &j.fit, &j.innovation, &j.entropy})
+       {&j.probability, &j.explained, &j.blocked, &j.beyond, &j.fit, &j.innovation, &j.entropy, &j.drift})
     *value = table.number();
   return j;
 }
@@ -207,7 +207,8 @@ std::string to_csv(const std::vector<Estimate>& estimates) {
                    static_cast<double>(e.particles), static_cast<double>(e.hypotheses), e.weight, e.quality});
     const Judgement& j = e.judgement;
     text.append(",").append(to_string(j.state));
-    append_more(text, {j.probability, j.explained, j.blocked, j.beyond, j.fit, j.innovation, j.entropy});
+    append_more(text,
+                {j.probability, j.explained, j.blocked, j.beyond, j.fit, j.innovation, j.entropy, j.drift});
     text += '\n';
   }
   return text;

@@ -25,7 +25,7 @@ std::string to_csv(const std::vector<Estimate>& estimates);
 std::vector<Estimate> parse_estimates(std::string_view text, const std::string& name);
 inline constexpr std::string_view kEstimateHeader =
     "stamp_s,x_m,y_m,theta_rad,var_x,cov_xy,cov_x_theta,var_y,cov_y_theta,var_theta,ess,particles,hypotheses,"
-    "weight,quality,state,probability,explained,blocked,beyond,fit,innovation_m,entropy";
+    "weight,quality,state,probability,explained,blocked,beyond,fit,innovation_m,entropy,drift_m";
 
 /// Columns `kHypothesisHeader`: the rows of one stamp are the places of one instant, heaviest first; `place`
 /// is the same number as long as a place is followed.

@@ -16,7 +16,7 @@ void for_each_field(AnyEstimate& estimate, Visit visit) {
   // A member that Estimate gains must be recorded, too: then this line no longer compiles.
   auto& [stamp, T_map_base, covariance, ess, particles, hypotheses, weight, quality, belief_stamp, T_map_odom,
          judgement] = estimate;
-  auto& [state, probability, explained, blocked, beyond, fit, innovation, entropy] = judgement;
+  auto& [state, probability, explained, blocked, beyond, fit, innovation, entropy, drift] = judgement;
   visit("stamp", stamp);
   visit("x", T_map_base.x);
   visit("y", T_map_base.y);
@@ -44,6 +44,7 @@ void for_each_field(AnyEstimate& estimate, Visit visit) {
   visit("fit", fit);
   visit("innovation", innovation);
   visit("entropy", entropy);
+  visit("drift", drift);
 }
 
 // How a member is written: its type in the schema, and the number that stands for it.

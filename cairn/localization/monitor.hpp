@@ -29,6 +29,7 @@ struct MonitorOptions {
   double lost_rate = 1e-3;     ///< prior probability of being carried away between two updates
   double found_rate = 1e-2;    ///< likewise of a lost filter coming right by itself
   double scale = 1.0;          ///< of the reported log-odds
+  double drift_m = 0.7;        ///< drift that halves the probability; 0: none does
   double usual_memory = 0.98;  ///< share of the usual figures that outlives an update while the pose is right
   double crowded_share = 0.35;    ///< state crowded above this share of blocked beams
   double ambiguous_weight = 0.9;  ///< state ambiguous below this weight of the believed place
@@ -45,6 +46,7 @@ struct MonitorInput {
   double quality = 0.0;                ///< used instead: share that the map explains
   std::span<const Hypothesis> places;  ///< the believed one first
   double innovation_m = 0.0;           ///< see Judgement
+  double drift_m = 0.0;                ///< likewise
   double share = 1.0;    ///< of the scan's beams that `seen` is about: so much its evidence counts
   bool vouched = false;  ///< for the pose by another scanner: what this one says against it does not count
 };
@@ -60,6 +62,7 @@ struct MonitorMemory {
   double log_odds = 0.0;       ///< that the believed place is the right one, but for the other places
   double last_evidence = 0.0;  ///< of the last scan, for the pose
   double blocked = 0.0;        ///< share, averaged over some scans
+  double drift_m = 0.0;        ///< of the last update
 };
 
 /// Judges from update to update whether the reported pose is right: a Bayes filter over {right, lost}.
@@ -68,8 +71,10 @@ struct MonitorMemory {
 /// fit, in how far the explained share has fallen below what is usual for this sensor and map, and in the
 /// innovation. A crowd blocks beams; a wrong place lets them through walls.
 ///
-/// The reported probability is that of being right times the weight of the believed place.
-/// Immutable; deterministic; does not allocate after the first update of a stream.
+/// The reported probability is that of being right times the weight of the believed place. Where the map has
+/// taken the pose elsewhere than the robot has moved, by a drift of d metres (Reckoning), it is divided by
+/// 1 + (d / drift_m)^6; that does not add up from scan to scan. Immutable; deterministic; does not allocate
+/// after the first update of a stream.
 class Monitor {
  public:
   explicit Monitor(const MonitorOptions& options) : options_(options) {}
@@ -81,6 +86,8 @@ class Monitor {
 
   /// Probability that the believed place is right, if it is one of those that the belief holds.
   double right(const MonitorMemory& memory) const;
+  /// Likewise by what the scans say, whatever the drift.
+  double right_by_scans(const MonitorMemory& memory) const;
 
   /// Another place is believed now, or candidates came in: what was known of the old one is void.
   static void start_over(MonitorMemory& memory);

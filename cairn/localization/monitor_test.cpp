@@ -95,6 +95,39 @@ TEST_F(MonitorTest, AnotherPlaceIsJudgedAnew) {
   EXPECT_LT(look(kElsewhere, 3).probability, 0.5);
 }
 
+// A place that the map has drawn the pose to is explained well.
+TEST_F(MonitorTest, APoseThatLeavesTheRobotsMotionIsDoubted) {
+  const auto drifted = [&](double drift_m) {
+    return monitor_.update(memory_, {.seen = kUsual, .places = places_, .drift_m = drift_m});
+  };
+  const double usual = look(kUsual, 20).probability;
+  EXPECT_GT(drifted(0.3).probability, 0.99 * usual);
+  EXPECT_NEAR(drifted(0.7).probability, 0.5 * usual, 1e-3);
+  const Judgement far = drifted(1.2);
+  EXPECT_LT(far.probability, 0.05);
+  EXPECT_EQ(far.state, TrackingState::kAmbiguous);
+  EXPECT_EQ(far.drift, 1.2);
+  EXPECT_NE(explain(far).find("1.20 m away from the robot's own motion"), std::string::npos) << explain(far);
+  EXPECT_GT(monitor_.right_by_scans(memory_), 0.99);
+  EXPECT_GT(drifted(0.0).probability, 0.99 * usual);  // nothing has added up
+}
+
+TEST_F(MonitorTest, TheDriftOfAPlaceThatIsGivenUpIsForgotten) {
+  monitor_.update(memory_, {.seen = kUsual, .places = places_, .drift_m = 2.0});
+  Monitor::take_over(memory_);
+  EXPECT_GT(monitor_.right(memory_), 0.8);
+  monitor_.update(memory_, {.seen = kUsual, .places = places_, .drift_m = 2.0});
+  Monitor::start_over(memory_);
+  EXPECT_EQ(monitor_.right(memory_), 0.5);
+}
+
+TEST_F(MonitorTest, NoDriftCountsWhereItIsSwitchedOff) {
+  const Monitor monitor({.drift_m = 0.0});
+  const Judgement judgement = monitor.update(memory_, {.seen = kUsual, .places = places_, .drift_m = 100.0});
+  EXPECT_GT(judgement.probability, 0.9);
+  EXPECT_EQ(judgement.state, TrackingState::kTracking);
+}
+
 TEST_F(MonitorTest, OneBadScanIsNotEnough) {
   look(kUsual, 20);
   EXPECT_EQ(look(kElsewhere).state, TrackingState::kTracking);

@@ -20,6 +20,7 @@ Eigen::Matrix3d carried(const Eigen::Matrix3d& covariance, const Pose2& from, co
 // Ids of places beside the belief begin here.
 constexpr std::uint32_t kFirstRival = 1'000'000;
 constexpr double kNegligible = 1e-3;
+constexpr double kKnownStart_m = 0.5;  // standard deviation of its position
 
 double apart(const Pose2& a, const Pose2& b) {
   return distance(a, b) + std::abs(normalize_angle(a.theta - b.theta));
@@ -54,6 +55,7 @@ PoseBelief::Application PoseBelief::apply(const Event& event, const OdometryTrac
   Application applied;
   const Link link = link_to_last(event, odometry);
   if (recovery_) recovery_->note(state_.recovery, link, event.stamp);
+  if (link == Link::kBroken) state_.reckoning.forget();
   if (!state_.started || worth_an_update(event.stream, event.stamp, odometry, scheduler) ||
       link == Link::kBroken || surprises(event, odometry))
     applied = update(event, odometry);
@@ -139,6 +141,7 @@ PoseBelief::Application PoseBelief::update(const Event& event, const OdometryTra
   if (anywhere) {
     start_anywhere(event.stream, event.payload);
   } else {
+    reckon(moved);
     filter_->predict(moved);
     GlobalSearch::carry(state_.search, moved);
     if (informs) {
@@ -160,6 +163,18 @@ PoseBelief::Application PoseBelief::update(const Event& event, const OdometryTra
   return {informs, {model.beams(event.payload), static_cast<std::int64_t>(filter_->size())}};
 }
 
+// A start pose that was given counts as reckoned if it is known to half a metre; where the odometry was
+// silent nothing is.
+void PoseBelief::reckon(const PoseControl& moved) {
+  if (!state_.started) {
+    const PoseSummary start = filter_->summarize();
+    if (start.covariance(0, 0) + start.covariance(1, 1) < kKnownStart_m * kKnownStart_m)
+      state_.reckoning.begin(start.T_map_base);
+  }
+  if (moved.unknown_s > 0.0) state_.reckoning.forget();
+  state_.reckoning.carry(moved.T_before_after);
+}
+
 void PoseBelief::summarize(const Pose2& moved, double since_s) {
   const PoseSummary now = filter_->summarize();
   const PoseHypothesis alone{now.weight, now.T_map_base, now.covariance,
@@ -170,7 +185,10 @@ void PoseBelief::summarize(const Pose2& moved, double since_s) {
   if (state_.search.searching) places = both = GlobalSearch::with_found(state_.search, of_particles);
   const std::uint32_t believed = state_.track.believed();
   follow_hypotheses(places, moved, since_s, {}, state_.track, scratch_);
-  if (believed != 0 && state_.track.believed() != believed) Monitor::start_over(state_.monitor);
+  if (believed != 0 && state_.track.believed() != believed) {
+    Monitor::start_over(state_.monitor);
+    state_.reckoning.forget();
+  }
   state_.updated.T_map_base = places[0].mean;
   state_.updated.covariance = places[0].covariance;
   state_.updated.ess = now.ess;
@@ -194,14 +212,16 @@ std::optional<BeamShares> PoseBelief::judge(const StreamModel& model, const Even
   const std::optional<BeamShares> seen = model.classify(event.payload, now.T_map_base);
   const bool tracked = recovery_ && recovery_->well_tracked(state_.recovery);
   const auto telling = seen && tracked ? std::optional(on_the_map(*seen)) : seen;
-  now.judgement = monitor_.update(state_.monitor,
-                                  {.stream = event.stream,
-                                   .seen = telling,
-                                   .quality = now.quality,
-                                   .places = state_.track.places,
-                                   .innovation_m = state_.started ? apart(predicted, now.T_map_base) : 0.0,
-                                   .share = seen && tracked ? 1.0 - seen->unknown : 1.0,
-                                   .vouched = vouched_by_others(event.stream)});
+  now.judgement = monitor_.update(
+      state_.monitor,
+      {.stream = event.stream,
+       .seen = telling,
+       .quality = now.quality,
+       .places = state_.track.places,
+       .innovation_m = state_.started ? apart(predicted, now.T_map_base) : 0.0,
+       .drift_m = state_.reckoning.observe(event.stream, model, event.payload, now.T_map_base),
+       .share = seen && tracked ? 1.0 - seen->unknown : 1.0,
+       .vouched = vouched_by_others(event.stream)});
   if (seen) Monitor::describe(*seen, now.judgement);
   hear(model, event);
   return telling;
@@ -257,6 +277,7 @@ void PoseBelief::recover(const StreamModel& model, const Event& event, const Pos
   if (elsewhere) {
     summarize({}, 0.0);
     Monitor::take_over(state_.monitor);
+    state_.reckoning.forget();
     state_.pose = state_.updated.T_map_base;
     judge(model, event, {});
   }
@@ -269,11 +290,10 @@ void PoseBelief::recover(const StreamModel& model, const Event& event, const Pos
 void PoseBelief::judge_by_rivals(bool trusted) {
   Judgement& judgement = state_.updated.judgement;
   const double share = Rivals::believed_share(state_.recovery.rivals);
-  const double right = monitor_.right(state_.monitor) * share;
-  judgement.probability = state_.updated.weight * right;
+  judgement.probability = state_.updated.weight * monitor_.right(state_.monitor) * share;
   if (state_.recovery.carried) judgement.probability *= GlobalSearch::kMostUnconfirmed;
   if (judgement.state == TrackingState::kSensorFault) return;
-  if (right < 0.5 && !trusted) {
+  if (monitor_.right_by_scans(state_.monitor) * share < 0.5 && !trusted) {
     judgement.state = TrackingState::kLost;
   } else if (share < 0.9 && judgement.state != TrackingState::kLost) {
     judgement.state = TrackingState::kAmbiguous;

@@ -10,6 +10,7 @@
 #include "cairn/localization/monitor.hpp"
 #include "cairn/localization/odometry_track.hpp"
 #include "cairn/localization/pose_filter.hpp"
+#include "cairn/localization/reckoning.hpp"
 #include "cairn/localization/recovery.hpp"
 #include "cairn/localization/scheduler.hpp"
 #include "cairn/localization/stream_model.hpp"
@@ -91,6 +92,7 @@ class PoseBelief {
     Witnesses witnesses;
     HypothesisTrack track;
     Pose2 pose;  ///< of the last update, for the innovation
+    Reckoning reckoning;
     MonitorMemory monitor;
     RecoveryMemory recovery;
     GlobalSearchMemory search;
@@ -113,6 +115,7 @@ class PoseBelief {
   void start_anywhere(StreamId stream, const Event::Payload& z);
   bool may_begin(const StreamModel& model, const Event::Payload& z) const;
   Application update(const Event& event, const OdometryTrack& odometry);
+  void reckon(const PoseControl& moved);
   void summarize(const Pose2& moved, double since_s);
   std::optional<BeamShares> judge(const StreamModel& model, const Event& event, const Pose2& moved);
   void recover(const StreamModel& model, const Event& event, const Pose2& moved, double since_s,

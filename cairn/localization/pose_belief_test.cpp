@@ -234,6 +234,45 @@ TEST_F(PoseBeliefTest, ARobotThatSeesWhatIsNotMappedIsNotLost) {
   }
 }
 
+// The map has taken it to where it is; but that it was told to begin elsewhere speaks against that for a
+// while.
+TEST_F(PoseBeliefTest, APoseThatTheMapHasMovedFarIsDoubted) {
+  make(LocalizerOptions{}, {kStart * Pose2{-0.9, 0.0, 0.0}});
+  drive(40.0);
+  const Estimate& early = estimates_[2];
+  EXPECT_LT(distance(early.T_map_base, on_circle(kStart, to_seconds(early.stamp))), 0.2);
+  EXPECT_NEAR(early.judgement.drift, 0.9, 0.25);
+  EXPECT_LT(early.judgement.probability, 0.5);
+  EXPECT_EQ(early.judgement.state, TrackingState::kAmbiguous);
+  EXPECT_LT(estimates_.back().judgement.drift, 0.2);
+  EXPECT_TRUE(claims_to_know(estimates_.back()));
+}
+
+TEST_F(PoseBeliefTest, AStartThatIsNotWellKnownIsNotHeldAgainstThePose) {
+  LocalizerOptions options;
+  options.initial.sigma_x_m = options.initial.sigma_y_m = 0.5;
+  make(options, {kStart * Pose2{-0.9, 0.0, 0.0}});
+  drive(5.0);
+  EXPECT_LT(estimates_[2].judgement.drift, 0.2);
+  EXPECT_TRUE(claims_to_know(estimates_[2]));
+}
+
+// A fifth more than the robot drives.
+TEST_F(PoseBeliefTest, OdometryThatErrsIsNotHeldAgainstThePose) {
+  make(LocalizerOptions{});
+  for (int i = 0; i < 800; ++i) {
+    const double seconds = 0.05 * i;
+    const Pose2 way = on_circle({}, seconds);
+    localizer_->process(test::odometry_event(seconds, {1.2 * way.x, 1.2 * way.y, way.theta}));
+    if (i % 4 == 0) scan(seconds + 0.013);
+  }
+  localizer_->finish();
+  for (const Estimate& e : estimates_) {
+    EXPECT_LT(e.judgement.drift, 0.4) << to_seconds(e.stamp);
+    EXPECT_TRUE(claims_to_know(e)) << to_seconds(e.stamp);
+  }
+}
+
 TEST_F(PoseBeliefTest, NoEvidenceNeedBeAddedWhereTheMonitorDoubts) {
   LocalizerOptions options;
   options.recovery.sure = 1000.0;

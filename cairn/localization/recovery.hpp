@@ -48,7 +48,7 @@ struct RecoveryOptions {
   double continued = 0.75;
   double carried = 0.5;   ///< prior of being elsewhere then, shared by what is found
   double anchor_m = 2.0;  ///< after so much way on which all scans went on, places elsewhere are given up;
-  double settle_m = 4.0;  ///< after so much where a rival has taken over
+  double settle_m = 6.0;  ///< after so much where a rival has taken over
   /// The first search prepares the map, for about 60 bytes per cell: there is no recovery on a larger one,
   /// and a warning says so.
   double most_million_cells = 16.0;

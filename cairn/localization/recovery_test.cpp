@@ -310,7 +310,7 @@ TEST_F(RecoveryTest, APlaceThatHasTakenOverIsSettledLater) {
   memory_.rivals = {{{5, 0, 0}, 12.0}};
   ASSERT_TRUE(recovery_.take_over(memory_, kBelieved, Standing::kDoubtful, filter_));
   memory_.rivals.clear();
-  for (int metre = 1; metre <= 4; ++metre) {
+  for (int metre = 1; metre <= RecoveryOptions{}.settle_m; ++metre) {
     EXPECT_TRUE(memory_.carried) << metre;
     Recovery::carry(memory_, {1.0, 0.0, 0.0}, 1.0);
     memory_.doubted_m = 0.0;

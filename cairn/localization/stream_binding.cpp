@@ -57,9 +57,10 @@ struct LaserParts {
   std::unique_ptr<const LaserLocator> start;     ///< null: the search for the start is switched off
   std::unique_ptr<const LaserLocator> recovery;  ///< null: recovery is switched off
   std::shared_ptr<const BeamClassifier> classes;
-  std::unique_ptr<const PlaceFit> fit;       ///< null: recovery is switched off
-  std::optional<ScanContinuity> continuity;  ///< likewise
-  std::optional<PlaceSampler> sampler;       ///< only for recipes that draw samples of p(x | z)
+  std::unique_ptr<const PlaceFit> fit;  ///< null: recovery is switched off
+  ScanContinuity continuity;
+  bool recovers = false;                ///< a robot that was carried away is looked for
+  std::optional<PlaceSampler> sampler;  ///< only for recipes that draw samples of p(x | z)
   BeamLimits limits;
   int max_beams = 0;
   double cost = 1.0;
@@ -102,14 +103,17 @@ class LaserStream final : public StreamModel {
   std::optional<BeamShares> classify(const Event::Payload& z, const Pose2& T_map_base) const override {
     return parts_.classes->classify(scan_of(z), T_map_base);
   }
-  bool can_continue() const override { return parts_.continuity.has_value(); }
-  bool can_continue(const Event::Payload& z) const override {
-    return parts_.continuity && parts_.continuity->can_tell(scan_of(z));
-  }
+  bool can_continue() const override { return parts_.recovers; }
+  bool can_continue(const Event::Payload& z) const override { return parts_.recovers && can_compare(z); }
   std::optional<double> continued_share(const Event::Payload& before, const Event::Payload& now,
                                         const Pose2& T_before_now) const override {
-    if (!parts_.continuity) return std::nullopt;
-    return parts_.continuity->share(scan_of(before), scan_of(now), T_before_now);
+    if (!parts_.recovers) return std::nullopt;
+    return parts_.continuity.share(scan_of(before), scan_of(now), T_before_now);
+  }
+  bool can_compare(const Event::Payload& z) const override { return parts_.continuity.can_tell(scan_of(z)); }
+  std::optional<double> closeness(const Event::Payload& before, const Event::Payload& now,
+                                  const Pose2& T_before_now) const override {
+    return parts_.continuity.closeness(scan_of(before), scan_of(now), T_before_now);
   }
   double beams(const Event::Payload& z) const override {
     const auto beams = static_cast<double>(scan_of(z).ranges_m.size());
@@ -203,7 +207,7 @@ std::unique_ptr<const StreamModel> bind_laser(const LocalizerOptions& options,
                    .recovery = nullptr,
                    .classes = make_classifier(map, options, T_base_sensor, laser.limits),
                    .fit = nullptr,
-                   .continuity = std::nullopt,
+                   .continuity = ScanContinuity(T_base_sensor, laser.limits),
                    .sampler = make_sampler(map, options, stream.name, places, T_base_sensor, laser.limits),
                    .limits = laser.limits,
                    .max_beams = options.laser.likelihood_field.max_beams,
@@ -214,7 +218,7 @@ std::unique_ptr<const StreamModel> bind_laser(const LocalizerOptions& options,
   if (options.global.most_poses > 0) parts.start = locator(start_search(options));
   if (options.recovery.active) {
     parts.recovery = locator(recovery_search(options));
-    parts.continuity.emplace(T_base_sensor, laser.limits);
+    parts.recovers = true;
     parts.fit = std::make_unique<const PlaceFit>(
         parts.classes, distance_field_of(map, options.laser.likelihood_field.max_distance_m), T_base_sensor,
         laser.limits);

@@ -87,6 +87,15 @@ class StreamModel {
     return std::nullopt;
   }
 
+  /// Whether closeness() may tell of this measurement.
+  virtual bool can_compare(const Event::Payload& /*z*/) const { return false; }
+  /// How closely two measurements agree if the robot has moved so: 0..1, to compare motions by. nullopt: they
+  /// are too far apart. @param T_before_now motion of the base in between
+  virtual std::optional<double> closeness(const Event::Payload& /*before*/, const Event::Payload& /*now*/,
+                                          const Pose2& /*T_before_now*/) const {
+    return std::nullopt;
+  }
+
   /// Evaluated parts of the measurement, weighted by what one of them costs (UpdateWork::beams).
   virtual double beams(const Event::Payload& z) const = 0;
 };

@@ -11,6 +11,13 @@ namespace {
 
 double squared(const Point2& p) { return p.x * p.x + p.y * p.y; }
 
+// Not where the motion is no number.
+bool is_within(const Pose2& T, double most_m, double most_rad) {
+  return std::hypot(T.x, T.y) <= most_m && std::abs(normalize_angle(T.theta)) <= most_rad;
+}
+
+constexpr double kClose_m[] = {0.05, 0.1, 0.2, 0.4};  // each counts for a quarter
+
 struct Turn {
   double cosine, sine;
 };
@@ -60,6 +67,20 @@ class Outline {
     return seen ? Look::kOffIt : Look::kOutOfView;
   }
 
+  /// How near it lies to a point in the sensor's frame: 1 within the least of kClose_m, a quarter less for
+  /// each of the others; nullopt: out of view.
+  std::optional<double> closeness(const Point2& p) const {
+    const double range = std::sqrt(squared(p));
+    double closeness = 1.0;
+    for (const double within_m : kClose_m) {
+      const Look found = look(p, range, within_m);
+      if (found == Look::kOutOfView) return std::nullopt;
+      if (found == Look::kOnIt) return closeness;
+      closeness -= 0.25;
+    }
+    return 0.0;
+  }
+
  private:
   // The beam, as a fraction, that looks at a bearing.
   double place_of(double bearing) const {
@@ -107,12 +128,26 @@ bool ScanContinuity::can_tell(const LaserScan& scan) const {
 
 std::optional<double> ScanContinuity::share(const LaserScan& before, const LaserScan& now,
                                             const Pose2& T_before_now) const {
-  const bool near = std::hypot(T_before_now.x, T_before_now.y) <= options_.most_m &&
-                    std::abs(normalize_angle(T_before_now.theta)) <= options_.most_rad;
-  if (!near) return std::nullopt;  // nor where the motion is no number
+  if (!is_within(T_before_now, options_.most_m, options_.most_rad)) return std::nullopt;
   const std::optional<double> forth = share_on(before, now, T_before_now);
   if (!forth || *forth >= options_.doubt) return forth;
   return std::min(*forth, share_on(now, before, inverse(T_before_now)).value_or(1.0));
+}
+
+std::optional<double> ScanContinuity::closeness(const LaserScan& before, const LaserScan& now,
+                                                const Pose2& T_before_now) const {
+  if (!is_within(T_before_now, options_.most_compared_m, options_.most_compared_rad)) return std::nullopt;
+  const Pose2 T_sensor_base = inverse(T_base_sensor_) * T_before_now;
+  const Outline outline(before, limits_, options_.gap_m);
+  int in_view = 0;
+  double sum = 0.0;
+  for (const Point2& end : select_end_points(now, T_base_sensor_, limits_, options_.beams)) {
+    const std::optional<double> close = outline.closeness(T_sensor_base * end);
+    in_view += close.has_value();
+    sum += close.value_or(0.0);
+  }
+  if (in_view < options_.least_beams) return std::nullopt;
+  return sum / in_view;
 }
 
 // Of `scan`, on what was seen in `seen`.

@@ -3,6 +3,7 @@
 #include "small_room.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -103,6 +104,31 @@ TEST_F(ScanContinuityTest, PeopleInTheWayBreakNothing) {
   LaserScan now = seen(kHere);
   std::fill_n(now.ranges_m.begin() + 40, 30, 0.8f);
   EXPECT_GT(continuity_.share(seen(kHere), now, {}).value_or(0.0), 0.8);
+}
+
+TEST_F(ScanContinuityTest, TheMotionThatWasMadeBringsScansClosest) {
+  const Pose2 motion{0.5, 0.1, 0.4};  // farther than scans are compared to tell a break
+  const auto closeness = [&](const Pose2& T) {
+    return continuity_.closeness(seen(kHere), seen(kHere * motion), T).value_or(-1.0);
+  };
+  const double made = closeness(motion);
+  EXPECT_GT(made, 0.95);
+  double before = made;
+  for (const double off : {0.1, 0.2, 0.4}) {
+    for (const double side : {-1.0, 1.0}) {
+      EXPECT_LT(closeness(motion * Pose2{side * off, 0.0, 0.0}), before - 0.02) << side * off;
+      EXPECT_LT(closeness(motion * Pose2{0.0, side * off, 0.0}), before - 0.02) << side * off;
+    }
+    before = std::max(closeness(motion * Pose2{off, 0.0, 0.0}), closeness(motion * Pose2{-off, 0.0, 0.0}));
+  }
+}
+
+TEST_F(ScanContinuityTest, NoMotionIsToldWhereScansAreFarApartOrSeeNothing) {
+  const LaserScan here = seen(kHere), blind;
+  for (const Pose2& far : {Pose2{1.1, 0.0, 0.0}, {0.0, 0.0, 1.1}, {std::nan(""), 0.0, 0.0}})
+    EXPECT_FALSE(continuity_.closeness(here, seen(kHere * Pose2{0.1, 0.0, 0.0}), far));
+  EXPECT_FALSE(continuity_.closeness(blind, here, {}));
+  EXPECT_FALSE(continuity_.closeness(here, blind, {}));
 }
 
 TEST_F(ScanContinuityTest, SaysNothingOfScansThatAreFarApartOrSeeNothing) {
