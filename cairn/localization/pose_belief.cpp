@@ -256,7 +256,7 @@ void PoseBelief::recover(const StreamModel& model, const Event& event, const Pos
   if (!recovery_) return;
   RecoveryMemory& memory = state_.recovery;
   const Pose2& believed = state_.updated.T_map_base;
-  const double right = monitor_.right(state_.monitor);
+  const double right = monitor_.right_by_scans(state_.monitor);
   const bool fits = Monitor::fits(state_.monitor, event.stream);
   const bool doubtful = recovery_->doubtful(right, seen ? seen->explained : state_.updated.quality,
                                             state_.monitor.streams[event.stream].usual_explained);

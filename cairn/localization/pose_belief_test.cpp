@@ -25,10 +25,11 @@ class PoseBeliefTest : public test::MonteCarloLocalizerTest {
     return distance(last.T_map_base, on_circle(start, to_seconds(last.stamp)));
   }
   // On a circle, and after 5 s on another one.
-  void carry_away() {
+  void carry_away() { drive_to_and_on(5.0); }
+  void drive_to_and_on(double carried_at) {
     for (int i = 0; i < 400; ++i) {
       const double seconds = 0.05 * i;
-      const bool carried = seconds > 5.0;
+      const bool carried = seconds > carried_at;
       odometry(seconds);
       if (i % 4 != 0) continue;
       const Pose2 truth = on_circle(carried ? kElsewhere : kStart, seconds + 0.013);
@@ -246,6 +247,14 @@ TEST_F(PoseBeliefTest, APoseThatTheMapHasMovedFarIsDoubted) {
   EXPECT_EQ(early.judgement.state, TrackingState::kAmbiguous);
   EXPECT_LT(estimates_.back().judgement.drift, 0.2);
   EXPECT_TRUE(claims_to_know(estimates_.back()));
+}
+
+// What fits where it was drawn to may fit elsewhere better: the map has the less to say.
+TEST_F(PoseBeliefTest, ARobotThatTheMapHasMovedIsNotLookedForElsewhere) {
+  make(LocalizerOptions{}, {kStart * Pose2{-0.9, 0.0, 0.0}});
+  drive_to_and_on(1e9);
+  EXPECT_FALSE(rivals_before_);
+  EXPECT_LT(error_at_the_end(kStart), 0.15);
 }
 
 TEST_F(PoseBeliefTest, AStartThatIsNotWellKnownIsNotHeldAgainstThePose) {

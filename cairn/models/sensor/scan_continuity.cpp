@@ -141,7 +141,7 @@ std::optional<double> ScanContinuity::closeness(const LaserScan& before, const L
   const Outline outline(before, limits_, options_.gap_m);
   int in_view = 0;
   double sum = 0.0;
-  for (const Point2& end : select_end_points(now, T_base_sensor_, limits_, options_.beams)) {
+  for (const Point2& end : select_end_points(now, T_base_sensor_, limits_, options_.compared_beams)) {
     const std::optional<double> close = outline.closeness(T_sensor_base * end);
     in_view += close.has_value();
     sum += close.value_or(0.0);

@@ -21,8 +21,9 @@ struct ScanContinuityOptions {
   double least_view_rad = 2.0;  ///< scanners that see less are not asked: one person may fill their view
   double gap_m = 0.5;           ///< neighbouring end points that are nearer than this are joined by a line
   double doubt = 0.95;          ///< where less of the later scan lies there, the earlier one is asked, too
-  double most_m = 0.5;    ///< scans that are farther apart than this, or turned by more, are not compared:
-  double most_rad = 0.5;  ///< corners hide too much
+  double most_m = 0.5;      ///< scans that are farther apart than this, or turned by more, are not compared:
+  double most_rad = 0.5;    ///< corners hide too much
+  int compared_beams = 30;  ///< as beams, where only motions are compared
   double most_compared_m = 1.0;    ///< likewise where only motions are compared
   double most_compared_rad = 1.0;  ///< likewise
 };
