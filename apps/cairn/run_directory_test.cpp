@@ -57,6 +57,7 @@ RunData small_run() {
   e.hypotheses = 2;
   e.weight = 0.9;
   e.quality = 0.75;
+  e.judgement = {TrackingState::kCrowded, 0.91, 0.6, 0.37, 0.01, -0.2 / 3.0, 0.03, 0.11, 0.45};
   run.estimates = {e};
   run.metrics = {{"cairn_version", "0.1.0"}, {"recipe", "mcl"}};
   run.configuration = "recipe: mcl\n";
@@ -184,6 +185,24 @@ TEST(RunTables, AreReadWholeOrRefusedWhereverTheyAreCut) {
     if (whole_rows) continue;
     EXPECT_THROW(parse_estimates(csv.substr(0, n), "e"), InputError) << n;
   }
+}
+
+TEST(RunTables, KeepWhatAnEstimateThinksOfItself) {
+  const RunData run = small_run();
+  const Judgement before = run.estimates.front().judgement;
+  const Judgement after = parse_estimates(to_csv(run.estimates), "e").front().judgement;
+  EXPECT_EQ(after.state, before.state);
+  EXPECT_EQ(after.probability, before.probability);
+  EXPECT_EQ(after.explained, before.explained);
+  EXPECT_EQ(after.blocked, before.blocked);
+  EXPECT_EQ(after.beyond, before.beyond);
+  EXPECT_EQ(after.fit, before.fit);
+  EXPECT_EQ(after.innovation, before.innovation);
+  EXPECT_EQ(after.entropy, before.entropy);
+  EXPECT_EQ(after.drift, before.drift);
+  const std::string row = to_csv(run.estimates);
+  EXPECT_NE(row.find(",crowded,0.91,0.6,0.37,0.01,-0.06666666666666667,0.03,0.11,0.45\n"), std::string::npos)
+      << row;
 }
 
 TEST(RunTables, KeepLargeRoundCounts) {

@@ -64,6 +64,7 @@ Estimate estimate(std::uint32_t k) {
   e.quality = 0.9;
   e.belief_stamp = Time(Duration(k / 2));
   e.T_map_odom = {0.1, -0.2 / (k + 1.0), 3.0};
+  e.judgement = {TrackingState::kCrowded, 0.91, 0.6, 0.37, 0.01, -0.2 / (k + 1.0), 0.03, 0.11, 0.45};
   return e;
 }
 

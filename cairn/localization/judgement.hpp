@@ -28,8 +28,8 @@ struct Judgement {
   double fit = 0.0;         ///< log-likelihood per beam, 0 for the best possible scan
   double innovation = 0.0;  ///< distance that the measurement moved the pose, in metres; 1 rad counts as 1 m
   double entropy = 0.0;  ///< of the weights of the hypotheses, nat: 0 for one place, log n for n equal ones
-  /// How far off the odometry of the last metres would have led, in metres (Reckoning); 0 where there is
-  /// none.
+  /// How far the pose has left the robot's own motion of the last metres (Reckoning), in metres; 0 where
+  /// nothing tells of that.
   double drift = 0.0;
 };
 

@@ -11,9 +11,10 @@ constexpr double kWon = 2.0;          // of a place that has won against all oth
 constexpr double kMissing = 0.5;      // an open place has no returns either
 constexpr double kMostOdds = 8.0;     // a long good time must not make blind
 constexpr double kBlockedMemory = 0.7;
-constexpr double kTrusted = 2.0;      // log-odds above which a scan counts as usual
-constexpr double kUsualMemory = 0.9;  // of what a scanner says against poses that others vouch for
-constexpr double kMisfit = -0.5;      // log-odds: so much against them, and its map does not fit it
+constexpr double kTrusted = 2.0;         // log-odds above which a scan counts as usual
+constexpr double kUsualMemory = 0.9;     // of what a scanner says against poses that others vouch for
+constexpr double kNotableDrift_m = 0.5;  // that a reason names
+constexpr double kMisfit = -0.5;         // log-odds: so much against them, and its map does not fit it
 // Without classes of beams: what an explained share says.
 constexpr double kQualitySlope = 4.0;
 constexpr double kEvenQuality = 0.55;
@@ -21,8 +22,8 @@ constexpr double kEvenQuality = 0.55;
 double logistic(double x) { return 1.0 / (1.0 + std::exp(-x)); }
 double log_odds(double p) { return std::log(p / (1.0 - p)); }
 
-// Of right poses 99.9 % drift by less than half a metre on seven recordings; in Wean Hall by less than 0.82
-// m.
+// Of right poses 99.9 % drift by less than half a metre on seven recordings, by less than 0.82 m in Wean
+// Hall.
 double agreement(double drift_m, double halved_at_m) {
   return halved_at_m > 0.0 ? 1.0 / (1.0 + std::pow(drift_m / halved_at_m, 6.0)) : 1.0;
 }
@@ -36,6 +37,14 @@ double entropy_of(std::span<const Hypothesis> places) {
 }
 
 std::string percent(double share) { return std::to_string(std::lround(100.0 * share)) + " %"; }
+
+std::string ambiguity_of(const Judgement& j) {
+  if (j.drift > kNotableDrift_m)
+    return "the map has drawn the pose " + std::to_string(j.drift).substr(0, 4) +
+           " m away from the robot's own motion";
+  return "several places fit, or one is too wide (entropy " + std::to_string(j.entropy).substr(0, 4) +
+         " nat)";
+}
 
 }  // namespace
 
@@ -53,10 +62,10 @@ void MonitorOptions::visit(OptionVisitor& v) {
   v.number({"lost_rate", "prior probability of being carried away between two updates"}, lost_rate, share);
   v.number({"found_rate", "likewise of a lost filter coming right by itself"}, found_rate, share);
   v.number({"scale", "of the reported log-odds"}, scale, {0.0, 100.0});
-  v.number({"drift_m",
-            "the probability is halved where the pose has left the odometry of the last metres by this, "
-            "metres; 0: never"},
-           drift_m, {0.0, 1e6});
+  v.number(
+      {"drift_m",
+       "the probability is halved where the pose has left the robot's own motion by this, metres; 0: never"},
+      drift_m, {0.0, 1e6});
   v.number({"usual_memory", "share of the usual figures that outlives an update"}, usual_memory, share);
   v.number({"crowded_share", "state crowded above this share of blocked beams"}, crowded_share, share);
   v.number({"ambiguous_weight", "state ambiguous below this weight of the heaviest place"}, ambiguous_weight,
@@ -167,20 +176,6 @@ TrackingState Monitor::state(const MonitorMemory& memory, const MonitorInput& in
   }
   return memory.blocked > options_.crowded_share ? TrackingState::kCrowded : TrackingState::kTracking;
 }
-
-namespace {
-
-constexpr double kNotableDrift_m = 0.5;
-
-std::string ambiguity_of(const Judgement& j) {
-  if (j.drift > kNotableDrift_m)
-    return "the map has drawn the pose " + std::to_string(j.drift).substr(0, 4) +
-           " m away from the robot's own motion";
-  return "several places fit, or one is too wide (entropy " + std::to_string(j.entropy).substr(0, 4) +
-         " nat)";
-}
-
-}  // namespace
 
 std::string explain(const Judgement& j) {
   std::string seen = "the map explains " + percent(j.explained) + " of the beams, " + percent(j.blocked) +
